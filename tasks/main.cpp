@@ -9,8 +9,10 @@
 #include "tasks/io/file.hpp"
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/resource_failure.hpp"
+#include "tasks/io/stack.hpp"
 #include "tasks/io/standard_streams.hpp"
 #include "tasks/io/texts.hpp"
+#include "tasks/io/usage_error.hpp"
 
 #ifdef ISOJAM_EXTRAS
 #include "tasks/extras/commands/extra_commands.hpp"
@@ -40,9 +42,15 @@ ExitCode parse_and_run(int argc, char** argv) {
                                      {"suggestion", each.suggestion}});
     }
     return ExitCode::bad_input;
+  } catch (const UsageError& error) {
+    console.error(error.what());
+    return ExitCode::usage;
   } catch (const FileError& error) {
     console.error(error.what());
-    return error.reason() == FileError::Reason::resource_failure ? ExitCode::some_failed : ExitCode::usage;
+    // A missing file of a results directory is an InputError, so this path is from the command line.
+    const bool wrong_path =
+        error.reason() == FileError::Reason::missing || error.reason() == FileError::Reason::no_file;
+    return wrong_path ? ExitCode::usage : ExitCode::some_failed;
   }
 }
 
@@ -67,6 +75,27 @@ constexpr auto out_of_memory = "out of memory";
   std::abort();
 }
 
+/// Runs the command, and converts each exception to an error message and an exit code.
+int exit_code_of(int argc, char** argv) {
+  try {
+    const auto code = parse_and_run(argc, argv);
+    flush_output();
+    return static_cast<int>(code);
+  } catch (const std::bad_alloc&) {
+    end_after_resource_failure(out_of_memory);
+  } catch (const std::system_error& error) {
+    const bool thread = error.code() == std::errc::resource_unavailable_try_again;
+    end_after_resource_failure(thread ? "cannot create another thread" : error.what());
+  } catch (const FileError& error) {
+    std::fprintf(stderr, "isojam: error: %s\n", printable(error.what()).c_str());
+    return static_cast<int>(ExitCode::some_failed);
+  } catch (const std::exception& error) {
+    if (is_resource_failure(error)) end_after_resource_failure(error.what());
+    std::fprintf(stderr, "isojam: error: %s\n", printable(error.what()).c_str());
+    return static_cast<int>(ExitCode::some_failed);
+  }
+}
+
 }  // namespace
 }  // namespace isojam
 
@@ -79,20 +108,8 @@ int main(int argc, char** argv) {
   // Writing to a file that must not grow then fails like any other write, instead of ending the program by a signal.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
-    const auto code = isojam::parse_and_run(argc, argv);
-    isojam::flush_output();
-    return static_cast<int>(code);
-  } catch (const std::bad_alloc&) {
-    isojam::end_after_resource_failure(isojam::out_of_memory);
+    return isojam::with_enough_stack([&] { return isojam::exit_code_of(argc, argv); });
   } catch (const std::system_error& error) {
-    const bool thread = error.code() == std::errc::resource_unavailable_try_again;
-    isojam::end_after_resource_failure(thread ? "cannot create another thread" : error.what());
-  } catch (const isojam::FileError& error) {
-    std::fprintf(stderr, "isojam: error: %s\n", isojam::printable(error.what()).c_str());
-    return static_cast<int>(isojam::ExitCode::some_failed);
-  } catch (const std::exception& error) {
-    if (isojam::is_resource_failure(error)) isojam::end_after_resource_failure(error.what());
-    std::fprintf(stderr, "isojam: error: %s\n", isojam::printable(error.what()).c_str());
-    return static_cast<int>(isojam::ExitCode::some_failed);
+    isojam::end_after_resource_failure(error.what());
   }
 }

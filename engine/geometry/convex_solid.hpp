@@ -96,8 +96,8 @@ struct SolidArrays {
   std::vector<EdgeRecord> record;                          ///< edges by index, in the format for the contact loop
   /// Indices of the end vertices of the edges, filled up to a multiple of 16 elements with copies of the first edge.
   std::vector<std::uint8_t> tail, head;
-  /// For each vertex: the vertex itself, and the edges and faces that meet in it. Empty for a solid with more than
-  /// word_edges edges.
+  /// For each vertex: the edges and faces that meet in it, and both ends of each of these edges. Empty for a solid with
+  /// more than word_edges edges.
   std::vector<Parts<1>> star;
   /// Height of each vertex above the plane of each face of the same solid, in the order of faces, then of vertices. It
   /// is exactly 0 if the vertex belongs to the face.

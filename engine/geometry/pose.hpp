@@ -9,7 +9,8 @@ namespace isojam {
 
 /// A vector in double-double: each component is the sum of two doubles.
 struct DoubleDoubleVector {
-  Eigen::Vector3d high = Eigen::Vector3d::Zero(), low = Eigen::Vector3d::Zero();  ///< nearest doubles; low parts
+  Eigen::Vector3d high = Eigen::Vector3d::Zero();  ///< nearest doubles of the components
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();   ///< remainders of the components
 
   DoubleDouble operator[](int c) const { return {high[c], low[c]}; }  ///< component c
   /// Sets component c.
@@ -18,22 +19,24 @@ struct DoubleDoubleVector {
   DoubleDoubleVector operator-() const { return {-high, -low}; }
 };
 
-/// A matrix in double-double: each entry is the sum of two doubles.
+/// A matrix in double-double: each entry is the sum of two doubles. By default, it is the unit matrix.
 struct DoubleDoubleMatrix {
-  Eigen::Matrix3d high = Eigen::Matrix3d::Identity(), low = Eigen::Matrix3d::Zero();  ///< nearest doubles; low parts
+  Eigen::Matrix3d high = Eigen::Matrix3d::Identity();  ///< nearest doubles of the entries
+  Eigen::Matrix3d low = Eigen::Matrix3d::Zero();       ///< remainders of the entries
 
   DoubleDouble operator()(int r, int c) const { return {high(r, c), low(r, c)}; }  ///< entry of row r and column c
   /// Sets the entry of row r and column c.
   void set(int r, int c, const DoubleDouble& value) { high(r, c) = value.high, low(r, c) = value.low; }
 };
 
-/// The product of two matrices. The error of each entry is at most 1e-31 times the largest entry.
+/// The product of two matrices. The error of each entry is at most 1e-30 × (largest entry of a) × (largest entry of b).
 DoubleDoubleMatrix operator*(const DoubleDoubleMatrix& a, const DoubleDoubleMatrix& b);
 
-/// Pose of a particle: the position x of its centre (V_p^(1/3)), and its orientation, a quaternion q from the body
-/// frame to the lab frame. Both are stored as sums of two doubles: x = position + position_low, and q = orientation +
-/// orientation_low. The first double is the double nearest to the sum. The rotation is that of q/|q|, for any |q|. If
-/// you assign `position` or `orientation`, also assign the corresponding low part.
+/// Pose of a particle: the position x of its centre (V_p^(1/3)), and its orientation, a quaternion q. The rotation by q
+/// takes vectors from the body frame to the lab frame. Both are stored as sums of two doubles: x = position +
+/// position_low, and q = orientation + orientation_low. The first double is the double nearest to the sum. q may have
+/// any length except 0; the rotation is that of q/|q|. If you assign `position` or `orientation`, also assign the
+/// corresponding low part.
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< nearest doubles of the centre x, in units of V_p^(1/3)
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< nearest doubles of q
@@ -49,21 +52,21 @@ struct Pose {
 };
 
 /// The pose after a motion in which the centre moves by dx and the orientation becomes exp(θ)·q; dx and θ are in the
-/// lab frame. The new |q| is 1 with an error of at most 1e-31. Motions that are much smaller than the spacing of
-/// doubles are not lost.
+/// lab frame. The new |q| is 1 with an error of about 1e-31. Motions down to 1e-25 change the pose, because both
+/// doubles of each number change.
 Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& theta);
 
-/// The same motion, with the rotation given by the vector part v = sin(|θ|/2) θ/|θ| of its unit quaternion (√(1 −
-/// |v|²), v). Requires |v| ≤ 1.
+/// The same motion. v = sin(|θ|/2) θ/|θ| is the vector part of the unit quaternion of the rotation. Its scalar part is
+/// √(1 − |v|²). Requires |v| ≤ 1.
 Pose moved_by_half_rotation(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& v);
 
 /// The pose whose centre x is multiplied by s. The orientation does not change.
 Pose scaled(const Pose& pose, const DoubleDouble& s);
 
-/// The pose with the centre F x instead of x. The orientation does not change.
+/// The pose with its centre at f·x. The orientation does not change.
 Pose deformed(const Pose& pose, const DoubleDoubleMatrix& f);
 
-/// Rotation matrix of q/|q| from the body frame to the lab frame, with an error of at most 1e-31.
+/// Rotation matrix of q/|q| from the body frame to the lab frame, with an error of about 1e-31.
 DoubleDoubleMatrix rotation_matrix(const Pose& pose);
 
 /// Pose of solid B relative to solid A. A point y in the body frame of B is at rotation·y + displacement in the body
@@ -73,7 +76,8 @@ struct RelativePose {
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< B's centre in A's body frame
 };
 
-/// Relative pose of B at `displacement` = x_B − x_A (lab frame, periodic image already chosen).
+/// Relative pose of B at `displacement` = x_B − x_A (lab frame, periodic image already chosen). a and b must be unit
+/// quaternions.
 RelativePose relative_pose(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b,
                            const Eigen::Vector3d& displacement);
 
@@ -84,9 +88,10 @@ struct QuadPose {
   Quad3 displacement{};  ///< B's centre in A's body frame
 };
 
-/// Position x in quadruple precision, the sum of both doubles.
+/// The exact position x: the sum of both doubles.
 Quad3 quad_position(const Pose& pose);
-/// Rotation matrix of q/|q| from the body frame to the lab frame, in quadruple precision.
+/// Rotation matrix of q/|q| from the body frame to the lab frame, in quadruple precision. Slower than
+/// rotation_matrix().
 QuadMatrix quad_rotation(const Pose& pose);
 /// Exact conversions to quadruple precision.
 Quad3 widened(const DoubleDoubleVector& v);
@@ -94,7 +99,7 @@ QuadMatrix widened(const DoubleDoubleMatrix& m);
 QuadPose widened(const RelativePose& pose);
 /// Rounds to the nearest doubles.
 RelativePose narrowed(const QuadPose& pose);
-/// Relative pose of B at `displacement` = x_B − x_A (lab frame, periodic image already chosen).
+/// The same in quadruple precision, from both doubles of each orientation, for quaternions of any length except 0.
 QuadPose relative_pose(const Pose& a, const Pose& b, const Quad3& displacement);
 
 /// The normalised quaternion exp(θ)·q, where θ is a rotation vector in the lab frame (radians).

@@ -8,8 +8,8 @@
 
 namespace isojam {
 
-/// Quadruple precision (113 bits), computed in software. It is used for constants, degenerate pairs and references in
-/// tests.
+/// Quadruple precision (113 bits), computed in software. The engine uses it to construct solids, for pairs with nearly
+/// coplanar faces, and for the points where contact forces act. Tests use it as the reference.
 __extension__ using Quad = __float128;
 /// A vector in quadruple precision.
 using Quad3 = std::array<Quad, 3>;
@@ -18,7 +18,7 @@ using QuadMatrix = std::array<Quad3, 3>;  ///< a matrix in quadruple precision, 
 /// The exact value of a double-double: the sum of both doubles.
 inline Quad widened(const DoubleDouble& x) { return Quad(x.high) + Quad(x.low); }
 
-/// The nearest double-double: the double nearest to x, and the double nearest to the difference.
+/// The double nearest to x, and the double nearest to the remainder.
 inline DoubleDouble narrowed(Quad x) {
   const auto high = static_cast<double>(x);
   return {high, static_cast<double>(x - Quad(high))};
@@ -53,14 +53,15 @@ inline QuadMatrix operator*(const QuadMatrix& m, const QuadMatrix& n) {
   return transposed({m * columns[0], m * columns[1], m * columns[2]});
 }
 
-/// The root √x. One step of Newton's method doubles the number of correct digits of std::sqrt for long double.
+/// Computes √x by std::sqrt for long double and one step of Newton's method, which doubles the number of correct
+/// digits. Returns 0 if x ≤ 0, and NaN if x is NaN.
 inline Quad square_root(Quad x) {
-  if (!(x > 0)) return 0;
+  if (x <= 0) return 0;
   const Quad guess = std::sqrt(static_cast<long double>(x));
   return (guess + x / guess) / 2;
 }
 
-/// The cube root ∛x, computed from std::cbrt for long double in the same way.
+/// Computes ∛x in the same way, with std::cbrt.
 inline Quad cube_root(Quad x) {
   if (x == 0) return 0;
   const Quad guess = std::cbrt(static_cast<long double>(x));

@@ -13,15 +13,16 @@ namespace isojam {
 /// An enumerator and its name in files and messages.
 template <class Enum>
 struct EnumName {
-  Enum value;             ///< the enumerator
-  std::string_view name;  ///< name in files and messages
+  Enum value;
+  std::string_view name;
 };
-/// Deduction guide for clang before version 17, because clang-tidy 14 reads these headers. g++ does not need it.
+/// Clang before version 17 cannot deduce the template argument of an aggregate. clang-tidy 14 reads these headers, so
+/// it needs this guide.
 template <class Enum>
 EnumName(Enum, std::string_view) -> EnumName<Enum>;
 
-/// The names of an enumeration. Each enumerator occurs once, and lists of names have this order. Specialise this
-/// variable directly after the enumeration. Then to_string() and from_string() work for the enumeration:
+/// The names of an enumeration. Name each enumerator once. Messages and lists use this order. Specialise this variable
+/// directly after the enumeration. Then to_string() and from_string() work for the enumeration:
 ///
 ///   enum class Axis { x, y };
 ///   template <>
@@ -32,7 +33,7 @@ inline constexpr std::array<EnumName<Enum>, 0> enum_names{};
 template <class Enum>
 concept NamedEnum = std::is_enum_v<Enum> && !enum_names<Enum>.empty();
 
-/// The name of an enumerator. The enumerator must have a name.
+/// The name of an enumerator. It must have a name; otherwise an assertion fails.
 template <NamedEnum Enum>
 constexpr std::string_view to_string(Enum value) {
   for (const auto& entry : enum_names<Enum>) {

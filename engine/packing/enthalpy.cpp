@@ -33,26 +33,26 @@ Enthalpy::Enthalpy(const CellControl& control, const PeriodicCell& reference)
       basis_(strain_basis(control.cell)),
       reference_(reference),
       reference_volume_(reference.volume_double_double()),
-      sheared_(control.cell == CellFreedom::free && !control.deviator.isZero(0)) {}
+      has_deviator_(control.cell == CellFreedom::free && !control.deviator.isZero(0)) {}
 
-double Enthalpy::work(const PeriodicCell& cell) const {
+double Enthalpy::load_energy(const PeriodicCell& cell) const {
   const double by_pressure = pressure() * (cell.volume_double_double() - reference_volume_).high;
-  if (!sheared_) return by_pressure;
+  if (!has_deviator_) return by_pressure;
   const Eigen::Matrix3d change = (cell.vectors().high - reference_.vectors().high) * inverse(reference_);
   return by_pressure - reference_.volume() * control_.deviator.cwiseProduct(change).sum();
 }
 
 /// V₀ F τ. A strain ε changes F to F + ε F + ½ ε² F. The derivative of the work V₀ τ:(F − 1) with respect to ε is
 /// therefore the symmetric part of this matrix.
-Eigen::Matrix3d Enthalpy::load(const PeriodicCell& cell) const {
-  if (!sheared_) return Eigen::Matrix3d::Zero();
+Eigen::Matrix3d Enthalpy::load_gradient(const PeriodicCell& cell) const {
+  if (!has_deviator_) return Eigen::Matrix3d::Zero();
   return reference_.volume() * cell.vectors().high * inverse(reference_) * control_.deviator;
 }
 
 /// Derivatives of the enthalpy with respect to the coordinates ℓ·ε of the free strains.
 Eigen::VectorXd Enthalpy::strain_gradient(const Eigen::Matrix3d& stress, const Packing& packing) const {
   Vector6d excess = strain_components(stress + pressure() * Eigen::Matrix3d::Identity());
-  if (sheared_) excess -= strain_components(load(packing.cell)) / packing.cell.volume();
+  if (has_deviator_) excess -= strain_components(load_gradient(packing.cell)) / packing.cell.volume();
   return packing.cell.volume() / strain_length(packing.size()) * (basis_.transpose() * excess);
 }
 
@@ -65,7 +65,7 @@ Evaluation Enthalpy::of(Evaluation evaluation, const Packing& packing) const {
   const Vector6d stress = strain_length(packing.size()) / packing.cell.volume() * (basis_ * gradient);
   const double scale = frees_volume(control_.cell) ? pressure() : evaluation.pressure;
   evaluation.residual = std::max(evaluation.residual, imbalance(stress, scale));
-  evaluation.load_energy = work(packing.cell);
+  evaluation.load_energy = load_energy(packing.cell);
   evaluation.energy += evaluation.load_energy;
   evaluation.energy_noise += rounding * std::abs(evaluation.load_energy);
   return evaluation;
@@ -76,7 +76,7 @@ EnvelopeEvaluation Enthalpy::of(EnvelopeEvaluation evaluation, const Packing& pa
   if (strains == 0) return evaluation;
   evaluation.gradient.conservativeResize(particles + strains);
   evaluation.gradient.tail(strains) = strain_gradient(evaluation.virial / packing.cell.volume(), packing);
-  const double load = work(packing.cell);
+  const double load = load_energy(packing.cell);
   evaluation.value += load;
   evaluation.noise += rounding * std::abs(load);
   return evaluation;
@@ -88,8 +88,8 @@ void Enthalpy::add_to(BlockMatrix& hessian, const Packing& packing) const {
   const Eigen::VectorXd trace =
       basis_.transpose() * (std::sqrt(3.0) * trace_direction()) / strain_length(packing.size());
   hessian.corner += pressure() * packing.cell.volume() * trace * trace.transpose();
-  if (!sheared_) return;
-  const Eigen::Matrix3d bent = load(packing.cell);
+  if (!has_deviator_) return;
+  const Eigen::Matrix3d bent = load_gradient(packing.cell);
   const double length = strain_length(packing.size());
   hessian.corner -= basis_.transpose() * of_squared_strain((bent + bent.transpose()) / 2) * basis_ / (length * length);
 }

@@ -6,26 +6,26 @@ namespace isojam {
 
 struct EnvelopeEvaluation;
 
-/// Enthalpy E + p (V − V₀) − V₀ τ:(F − 1) of a packing, the function that minimisers minimise. V is the volume of the
-/// cell, V₀ is the volume of the reference cell, and F is the deformation from the reference cell to the present cell.
-/// CellControl defines p and τ, and lists which terms are used for each CellFreedom. The last term is the work of a
-/// dead load. At the minimum, the stress equals −p·1 + τ only if F is near 1. After a large strain, make a new Enthalpy
-/// with the present cell as the reference.
+/// Enthalpy E + p (V − V₀) − V₀ τ:(F − 1) of a packing. All minimisers minimise this function. For a fixed cell, it is
+/// E. V is the volume of the cell, V₀ is the volume of the reference cell, and F is the deformation from the reference
+/// cell to the present cell. CellControl defines p and τ. It also lists which of the three terms apply to each
+/// CellFreedom. The last term is the potential energy of a load τ per area of the reference cell. It is minus the work
+/// of this load. At the minimum of a free cell, the stress is −p·1 + (V₀/V) sym(F τ). If F is close to 1, this is close
+/// to −p·1 + τ. After a large strain, make a new Enthalpy with the present cell as the reference.
 class Enthalpy {
  public:
   /// Makes an enthalpy with the reference cell `reference`.
   Enthalpy(const CellControl& control, const PeriodicCell& reference);
 
-  const CellControl& control() const { return control_; }  ///< free strains of the cell and load on the cell
+  const CellControl& control() const { return control_; }
 
-  /// Converts an evaluation of the energy to an evaluation of the enthalpy. The function adds the energy of the load to
-  /// the energy, and appends the derivatives with respect to the free strains to the gradient. The new residual is the
-  /// larger of the residual of the forces and the residual of the stress. The residual of the stress is the largest
-  /// absolute value of the entries of σ + p·1 − (V₀/V) sym(F τ), projected on the free strains, divided by p. σ is
-  /// Evaluation::stress. If the volume is not free, p = 0 in the numerator, and p in the denominator is the pressure of
-  /// the packing.
+  /// Converts an evaluation of the energy to an evaluation of the enthalpy. Adds the energy of the load, and appends
+  /// the derivatives with respect to the free strains (see CellFreedom) to the gradient. The new residual is the larger
+  /// of the residual of the forces and the residual of the stress. The residual of the stress is max |D_ij| / P. D is σ
+  /// + p·1 − (V₀/V) sym(F τ), projected on the free strains, where σ is Evaluation::stress. P is p. If the volume is
+  /// not free, D has no term p·1, and P is the pressure of the packing. If P ≤ 0 and D ≠ 0, the residual is infinite.
   Evaluation of(Evaluation evaluation, const Packing& packing) const;
-  /// Converts an evaluation of an envelope in the same way.
+  /// Adds the energy of the load and the derivatives with respect to the free strains to the evaluation of an envelope.
   EnvelopeEvaluation of(EnvelopeEvaluation evaluation, const Packing& packing) const;
   /// Adds the second derivatives of the load to BlockMatrix::corner of the Hessian of the energy.
   void add_to(BlockMatrix& hessian, const Packing& packing) const;
@@ -33,15 +33,15 @@ class Enthalpy {
  private:
   double pressure() const { return frees_volume(control_.cell) ? control_.pressure : 0; }
   /// The energy of the load, p (V − V₀) − V₀ τ:(F − 1).
-  double work(const PeriodicCell& cell) const;
-  Eigen::Matrix3d load(const PeriodicCell& cell) const;
+  double load_energy(const PeriodicCell& cell) const;
+  Eigen::Matrix3d load_gradient(const PeriodicCell& cell) const;
   Eigen::VectorXd strain_gradient(const Eigen::Matrix3d& stress, const Packing& packing) const;
 
   CellControl control_;
   StrainBasis basis_;
   PeriodicCell reference_;
   DoubleDouble reference_volume_;
-  bool sheared_;  ///< true if τ is not zero
+  bool has_deviator_;  ///< true if the cell is free and τ is not zero
 };
 
 }  // namespace isojam

@@ -45,9 +45,9 @@ class Options {
   void flag(const std::string& name, bool& value, const std::string& description);
   void positive(const std::string& name, double& value, const std::string& description, const std::string& type);
   /// An option with its own syntax. `read` parses its text, and returns an error message if the text is invalid.
-  /// `absent` is called if the user does not give the option.
+  /// `when_absent` is called if the user does not give the option.
   void parsed(const std::string& name, const std::function<std::optional<std::string>(const std::string&)>& read,
-              std::function<void()> absent, const std::string& description, const std::string& type);
+              std::function<void()> when_absent, const std::string& description, const std::string& type);
   /// An option with an enumeration: its value is the name of an enumerator.
   template <NamedEnum Enum>
   void choice(const std::string& name, Enum& value, const std::string& description, Need need = Need::optional) {

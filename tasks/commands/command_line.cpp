@@ -22,16 +22,16 @@ namespace {
 std::vector<ExitCodeDescription> exit_codes() {
   return {{ExitCode::done, "everything was done"},
           {ExitCode::some_failed,
-           "a replicate failed, memory, threads or disk space ran out, or an output cannot be "
-           "written"},
-          {ExitCode::usage, "error on the command line, or a path on it cannot be read or written"},
-          {ExitCode::bad_input, "error in a manifest, damaged record, or directory of another manifest"},
+           "a replicate failed, memory, threads or disk space ran out, or a file could not be read or written"},
+          {ExitCode::usage, "error on the command line, or a path on it does not exist or is of the wrong kind"},
+          {ExitCode::bad_input, "error in a manifest, damaged or missing results, or directory of another manifest"},
           {ExitCode::interrupted, "interrupted; repeat the command to resume"}};
 }
 
 std::string exit_codes_text() {
   std::string text = "Exit codes:\n";
-  for (const auto& [code, meaning] : exit_codes()) text += fmt::format("  {:>2}: {}\n", static_cast<int>(code), meaning);
+  for (const auto& [code, meaning] : exit_codes())
+    text += fmt::format("  {:>2}: {}\n", static_cast<int>(code), meaning);
   return text;
 }
 
@@ -200,13 +200,13 @@ void Options::positive(const std::string& name, double& value, const std::string
 }
 
 void Options::parsed(const std::string& name, const std::function<std::optional<std::string>(const std::string&)>& read,
-                     std::function<void()> absent, const std::string& description, const std::string& type) {
+                     std::function<void()> when_absent, const std::string& description, const std::string& type) {
   const auto parse = [name, read](const std::string& text) {
     if (const auto problem = read(text)) throw CLI::ValidationError(name, *problem);
   };
   const auto* option = app_.add_option_function<std::string>(name, parse, description)->type_name(type);
-  app_.parse_complete_callback([option, absent = std::move(absent)] {
-    if (option->count() == 0) absent();
+  app_.parse_complete_callback([option, when_absent = std::move(when_absent)] {
+    if (option->count() == 0) when_absent();
   });
 }
 

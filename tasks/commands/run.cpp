@@ -119,7 +119,6 @@ class StateFiles {
 
 ExitCode finish_shard(const Campaign& campaign, const Store& store, const Shard& shard, ExitCode code,
                       Console& console) {
-  const auto directory = store.directory().string();
   const auto records = StateFiles::names_of(store, "records");
   const StateFiles files(store);
   const auto has_files = [&](const std::string& name) {
@@ -129,7 +128,8 @@ ExitCode finish_shard(const Campaign& campaign, const Store& store, const Shard&
   };
   if (!all_recorded(campaign, has_files, console)) return ExitCode::some_failed;
   console.info(fmt::format("shard {}/{} is done; when all shards are done, run \"isojam aggregate {} -o {}\"",
-                           shard.index + 1, shard.count, directory, store.tables_path().string()));
+                           shard.index + 1, shard.count, shell_argument(store.directory().string()),
+                           shell_argument(store.tables_path().string())));
   return code;
 }
 
@@ -166,7 +166,6 @@ void adopt_added_measures(const std::string& directory, Manifest& manifest, Cons
 ExitCode run(const RunArguments& arguments, Console& console) {
   const InterruptWatcher watcher;
   auto manifest = read_manifest(arguments.manifest);
-  load_start(manifest);
   const auto directory = arguments.directory.empty() ? "results/" + manifest.name : arguments.directory;
   adopt_added_measures(directory, manifest, console);
   const Plan plan(manifest);

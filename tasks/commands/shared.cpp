@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include "engine/geometry/overlap/overlap.hpp"
-#include "tasks/io/file.hpp"
 #include "tasks/io/place.hpp"
 #include "tasks/io/standard_streams.hpp"
+#include "tasks/io/usage_error.hpp"
 #include "tasks/io/version.hpp"
 #include "tasks/manifest/warnings.hpp"
 #include "tasks/records/record.hpp"
@@ -68,7 +69,7 @@ void throw_unknown_replicate(const std::string& directory, const std::string& na
   const auto correction = names.empty()     ? std::string()
                           : nearest.empty() ? fmt::format("; expected a name such as \"{}\"", names[0])
                                             : fmt::format("; did you mean \"{}\"?", nearest);
-  throw FileError(fmt::format("{}: unknown replicate \"{}\"{}", directory, name, correction));
+  throw UsageError(fmt::format("{}: unknown replicate \"{}\"{}", directory, name, correction));
 }
 
 DirectoryLock lock_results(const std::string& directory, DirectoryLock::Kind kind) {
@@ -94,6 +95,16 @@ void print_tables(const Table& table, const std::string& directory, const std::v
 std::string version_text() {
   return fmt::format("isojam {} ({})\nfile formats written by this version: {} {} {} {}", version(), git_hash(),
                      record_schema, packing_schema, path_schema, table_schema);
+}
+
+std::string shell_argument(const std::string& path) {
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) || std::string_view("_-./+:@%=,").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (!path.empty() && std::all_of(path.begin(), path.end(), is_plain)) return path;
+  std::string text = "'";
+  for (const char c : path) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + "'";
 }
 
 std::string counted(std::size_t number, std::string_view noun) {

@@ -48,6 +48,9 @@ DirectoryLock lock_results(const std::string& directory, DirectoryLock::Kind kin
 /// writes.
 std::string version_text();
 
+/// A path as one argument of a shell command, in quotation marks if it has characters with a meaning in a shell.
+std::string shell_argument(const std::string& path);
+
 /// A number with a noun in the singular or plural, such as "1 thread" or "2 threads".
 std::string counted(std::size_t number, std::string_view noun);
 

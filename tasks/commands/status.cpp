@@ -90,14 +90,16 @@ ExitCode status(const StatusArguments& arguments, Console&) {
                   manifest.replicates.goal ? "up to " : "", counted(plan.size(), "replicate"), totals.failed,
                   totals.flagged, running, interrupted > 0 ? fmt::format(", {} interrupted", interrupted) : "");
   if (survey.unplanned > 0)
-    text += fmt::format("  {} not in the plan of the manifest\n",
-                        counted(static_cast<std::size_t>(survey.unplanned), "record"));
+    text += fmt::format("  {} {} not in the plan of the manifest\n",
+                        counted(static_cast<std::size_t>(survey.unplanned), "record"),
+                        survey.unplanned == 1 ? "is" : "are");
   if (survey.lacking > 0)
-    text += fmt::format("  {} without the measures that were added later; add them with \"isojam measure {}\"\n",
-                        counted(static_cast<std::size_t>(survey.lacking), "record"), arguments.directory);
-  for (const auto& [flag, count] : survey.flags)
     text +=
-        fmt::format("  {} with the flag {}\n", counted(static_cast<std::size_t>(count), "replicate"), to_string(flag));
+        fmt::format("  {} without the measures that were added later; add them with \"isojam measure {}\"\n",
+                    counted(static_cast<std::size_t>(survey.lacking), "record"), shell_argument(arguments.directory));
+  for (const auto& [flag, count] : survey.flags)
+    text += fmt::format("  {} {} the flag {}\n", counted(static_cast<std::size_t>(count), "replicate"),
+                        count == 1 ? "has" : "have", to_string(flag));
   for (const auto& replicate : survey.under_way) {
     text +=
         fmt::format("  {}: {}{} at density {:.4f}, {} steps, {} of CPU time, last step {} ago\n", replicate.name,

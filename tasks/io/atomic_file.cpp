@@ -12,6 +12,7 @@
 #include <optional>
 #include <random>
 #include <system_error>
+#include <thread>
 
 #include "tasks/io/file.hpp"
 
@@ -28,6 +29,50 @@ fs::path temporary_path_for(const fs::path& path) {
   const auto tag = (static_cast<std::uint64_t>(device()) << 32) | device();
   return path.parent_path() / fmt::format(".{}.{:016x}.tmp", path.filename().string(), tag);
 }
+
+/// True if this error means that the file system does not have the system call or its flag.
+bool is_unsupported(int error) { return error == EINVAL || error == ENOTSUP || error == ENOSYS || error == EPERM; }
+
+bool is_there(const fs::path& path) {
+  struct stat status {};
+  return ::lstat(path.c_str(), &status) == 0;
+}
+
+/// The right of one process at a time to create `path`. It is a file beside `path`, which the destructor removes.
+class Claim {
+ public:
+  /// Waits while another process has the claim. Takes no claim if `path` exists.
+  explicit Claim(const fs::path& path)
+      : claim_(path.parent_path() / fmt::format(".{}.claim.tmp", path.filename().string())) {
+    constexpr int most_trials = 300;
+    constexpr auto between_trials = std::chrono::milliseconds(10);
+    for (int trial = 0; trial < most_trials; ++trial) {
+      if (is_there(path)) return;
+      if (Descriptor(claim_, O_WRONLY | O_CREAT | O_EXCL).valid()) {
+        // Another process may have created the path before this one took the claim.
+        taken_ = !is_there(path);
+        if (!taken_) ::unlink(claim_.c_str());
+        return;
+      }
+      if (errno != EEXIST) throw FileError::of_errno(path, cannot_be_written);
+      std::this_thread::sleep_for(between_trials);
+    }
+    throw FileError(fmt::format("{}: another process is creating this file; if no such process exists, remove {}",
+                                path.string(), claim_.string()),
+                    FileError::Reason::resource_failure);
+  }
+  ~Claim() {
+    if (taken_) ::unlink(claim_.c_str());
+  }
+  Claim(const Claim&) = delete;
+  Claim& operator=(const Claim&) = delete;
+
+  bool taken() const { return taken_; }
+
+ private:
+  fs::path claim_;
+  bool taken_ = false;
+};
 
 /// A new file in the folder of `path`. The destructor removes it unless it has replaced `path`.
 class Temporary {
@@ -54,12 +99,16 @@ class Temporary {
     if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw FileError::of_errno(path_, cannot_be_written);
     renamed_ = true;
   }
-  /// Returns false if the path exists. On a file system without hard links, a rename that does not replace is used.
+  /// Returns false if the path exists. On a file system without hard links, a rename that does not replace is used. On
+  /// a file system without either, a claim allows one process at a time to rename.
   bool link() {
     if (::link(temporary_.c_str(), path_.c_str()) == 0) return true;
     if (errno == EEXIST) return false;
     renamed_ = ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_NOREPLACE) == 0;
-    if (!renamed_ && errno != EEXIST) throw FileError::of_errno(path_, cannot_be_written);
+    if (renamed_ || errno == EEXIST) return renamed_;
+    if (!is_unsupported(errno)) throw FileError::of_errno(path_, cannot_be_written);
+    const Claim claim(path_);
+    if (claim.taken()) rename();
     return renamed_;
   }
 
@@ -69,10 +118,14 @@ class Temporary {
   bool renamed_ = false;
 };
 
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+/// Synchronises the folder of a path. Some file systems, for example CIFS, cannot do this and need not.
 void sync_directory_of(const fs::path& path) {
-  const auto parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const auto parent = folder_of(path);
   const Descriptor directory(parent, O_RDONLY | O_DIRECTORY);
-  if (!directory.valid() || ::fsync(directory.number()) != 0)
+  const bool done = directory.valid() && ::fsync(directory.number()) == 0;
+  if (!done && !(directory.valid() && (is_unsupported(errno) || errno == EBADF)))
     throw FileError::of_errno(parent, "cannot be synchronised");
 }
 
@@ -86,6 +139,22 @@ std::optional<int> descriptor_at(const fs::path& path) {
   return std::stoi(name);
 }
 
+/// Throws if another user can choose the target of a symbolic link: in a sticky folder that everyone can write to, such
+/// as /tmp, the link must belong to this user or to the owner of the folder. This is the rule of the kernel
+/// (fs.protected_symlinks), which does not apply here because the program reads the link itself.
+void refuse_link_of_another_user(const fs::path& path) {
+  struct stat link {
+  }, folder{};
+  if (::lstat(path.c_str(), &link) != 0 || ::stat(folder_of(path).c_str(), &folder) != 0)
+    throw FileError::of_errno(path, cannot_be_written);
+  const auto shared = static_cast<mode_t>(S_ISVTX | S_IWOTH);
+  if ((folder.st_mode & shared) != shared || link.st_uid == ::geteuid() || link.st_uid == folder.st_uid) return;
+  throw FileError(
+      fmt::format("{}: is a symbolic link of another user in a folder that everyone can write to; choose "
+                  "another path",
+                  path.string()));
+}
+
 /// Follows symbolic links to the last path of the chain, which need not exist.
 fs::path followed(fs::path path) {
   constexpr int longest_chain = 40;  // the limit in the kernel
@@ -95,8 +164,9 @@ fs::path followed(fs::path path) {
       errno = ELOOP;
       throw FileError::of_errno(path, cannot_be_written);
     }
+    refuse_link_of_another_user(path);
     path = path.parent_path() / fs::read_symlink(path, error);
-    if (error) throw FileError(fmt::format("{}: {}: {}", path.string(), cannot_be_written, error.message()));
+    if (error) throw FileError::of_error(path, cannot_be_written, error);
   }
   return path;
 }

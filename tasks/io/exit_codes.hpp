@@ -4,9 +4,11 @@ namespace isojam {
 
 enum class ExitCode {
   done = 0,
-  some_failed = 1,  ///< a replicate failed, a resource (memory, disk, …) ran out, or output could not be written
-  usage = 2,        ///< the command line has an error, or a path that it names cannot be read or written
-  /// a manifest has an error, a record is damaged, or the directory belongs to another manifest (EX_DATAERR)
+  /// a replicate failed, a resource (memory, disk, …) ran out, or a file could not be read or written
+  some_failed = 1,
+  usage = 2,  ///< the command line has an error, or a path that it names does not exist or is of the wrong kind
+  /// a manifest has an error, a file of the results is damaged or missing, or the directory belongs to another manifest
+  /// (EX_DATAERR)
   bad_input = 65,
   interrupted = 75,  ///< a signal stopped the program; repeat the same command to resume (EX_TEMPFAIL)
 };

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
@@ -13,7 +14,7 @@ namespace isojam {
 namespace {
 
 constexpr std::size_t longest_stream = std::size_t{256} << 20;
-constexpr std::size_t block = std::size_t{1} << 16;
+constexpr std::size_t longest_block = std::size_t{1} << 16, shortest_block = 512;
 constexpr std::string_view cannot_be_read = "cannot be read";
 
 FileError::Reason reason_of(int error) {
@@ -37,10 +38,12 @@ FileError::Reason reason_of(int error) {
   }
 }
 
-/// Appends the rest of the file to `text`. Returns false, with the reason in errno, if this fails.
+/// Appends the rest of the file to `text`. Blocks fill the capacity of `text`, so that a file of known size takes two
+/// calls. Returns false, with the reason in errno, if this fails.
 bool read_rest(int fd, std::size_t most, std::string& text) {
   for (;;) {
     const auto size = text.size();
+    const auto block = std::clamp(text.capacity() - size, shortest_block, longest_block);
     if (size > most) {
       errno = EFBIG;
       return false;
@@ -79,7 +82,7 @@ std::string read_opened(const Descriptor& file, const std::filesystem::path& pat
                     FileError::Reason::no_file);
   std::string text;
   const bool regular = S_ISREG(status.st_mode);
-  if (regular && !reserve(text, static_cast<std::size_t>(status.st_size) + block))
+  if (regular && !reserve(text, static_cast<std::size_t>(status.st_size) + shortest_block))
     throw FileError::of_errno(path, cannot_be_read);
   if (!read_rest(file.number(), regular ? text.max_size() / 2 : longest_stream, text))
     throw FileError::of_errno(path, cannot_be_read);
@@ -89,9 +92,11 @@ std::string read_opened(const Descriptor& file, const std::filesystem::path& pat
 }  // namespace
 
 FileError FileError::of_errno(const std::filesystem::path& path, std::string_view what) {
-  const int error = errno;
-  return FileError(fmt::format("{}: {}: {}", path.string(), what, std::generic_category().message(error)),
-                   reason_of(error));
+  return of_error(path, what, {errno, std::generic_category()});
+}
+
+FileError FileError::of_error(const std::filesystem::path& path, std::string_view what, std::error_code error) {
+  return FileError(fmt::format("{}: {}: {}", path.string(), what, error.message()), reason_of(error.value()));
 }
 
 Descriptor::Descriptor(const std::filesystem::path& path, int flags)

@@ -32,18 +32,21 @@ bool is_comment(std::string_view text) {
   return text.starts_with("//") || text.starts_with("/*") || text.starts_with('#');
 }
 
-/// Reports errors that nlohmann's own builder accepts, and keeps track of the position.
-class Checker final : public nlohmann::json_sax<Json> {
+/// Makes the document. Unlike nlohmann's own builder, it reports duplicate keys and deep nesting, and states the
+/// position of an error. Its time is in proportion to the number of keys.
+class Builder final : public nlohmann::json_sax<Json> {
  public:
-  Checker(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+  Builder(std::string_view text, const std::string& file) : text_(text), file_(file) {}
 
-  bool null() override { return value(); }
-  bool boolean(bool) override { return value(); }
-  bool number_integer(number_integer_t) override { return value(); }
-  bool number_unsigned(number_unsigned_t) override { return value(); }
-  bool number_float(number_float_t, const string_t&) override { return value(); }
-  bool string(string_t&) override { return value(); }
-  bool binary(binary_t&) override { return value(); }
+  Json take() { return std::move(document_); }
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(number_integer_t value) override { return add(value); }
+  bool number_unsigned(number_unsigned_t value) override { return add(value); }
+  bool number_float(number_float_t value, const string_t&) override { return add(value); }
+  bool string(string_t& value) override { return add(std::move(value)); }
+  bool binary(binary_t&) override { return false; }
   bool start_object(std::size_t) override { return open(false); }
   bool end_object() override { return close(); }
   bool start_array(std::size_t) override { return open(true); }
@@ -78,6 +81,7 @@ class Checker final : public nlohmann::json_sax<Json> {
     std::size_t size = 0;
     std::string step;
     std::set<std::string> keys;
+    Json* value = nullptr;  ///< the list or the object
   };
 
   [[noreturn]] void refuse(const std::string& file, std::string problem, std::string allowed,
@@ -89,16 +93,26 @@ class Checker final : public nlohmann::json_sax<Json> {
     throw InputError({file, pointer, std::move(problem), std::move(allowed), "", std::move(remedy)});
   }
 
-  bool value() {
-    if (!levels_.empty() && levels_.back().array) levels_.back().step = std::to_string(levels_.back().size++);
+  /// Adds a value to the innermost list or object.
+  bool add(Json value) {
+    if (levels_.empty()) {
+      document_ = std::move(value);
+      added_ = &document_;
+    } else if (auto& level = levels_.back(); level.array) {
+      level.step = std::to_string(level.size++);
+      added_ = &level.value->emplace_back(std::move(value));
+    } else {
+      // The key is new, so it need not be compared with the other keys again.
+      added_ = &level.value->get_ref<Json::object_t&>().emplace_back(level.step, std::move(value)).second;
+    }
     return true;
   }
 
   bool open(bool array) {
-    value();
+    add(array ? Json::array() : Json::object());
     if (levels_.size() == deepest)
       refuse(file_, std::string(nested_too_deeply), fmt::format("at most {} levels", deepest));
-    levels_.push_back({array, 0, "", {}});
+    levels_.push_back({array, 0, "", {}, added_});
     return true;
   }
 
@@ -110,6 +124,8 @@ class Checker final : public nlohmann::json_sax<Json> {
   std::string_view text_;
   const std::string& file_;
   std::vector<Level> levels_;
+  Json document_;
+  Json* added_ = nullptr;  ///< the last value that was added
 };
 
 }  // namespace
@@ -118,9 +134,9 @@ Json parse_json(std::string_view text, const std::string& file) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     throw InputError({file, "", "the file is empty", "a JSON document", ""});
   }
-  Checker checker(text, file);
-  Json::sax_parse(text, &checker);
-  return parsed(text);
+  Builder builder(text, file);
+  Json::sax_parse(text, &builder);
+  return builder.take();
 }
 
 Json read_json(const std::string& file) { return parse_json(read_text(file), file); }

@@ -37,7 +37,8 @@ constexpr std::size_t longest_shown = 40;
 std::string shown(const Json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return "a list";
-  const auto text = compact(value);
+  // An argument of the command line may contain bytes that are not allowed in JSON.
+  const auto text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
   return text.size() <= longest_shown ? text : fmt::format("a {}", value.type_name());
 }
 
@@ -168,7 +169,8 @@ void JsonPlace::expect_keys(std::span<const std::string_view> names, std::string
     if (std::find(names.begin(), names.end(), key) != names.end()) continue;
     auto suggestion = elsewhere ? elsewhere(key) : std::string();
     if (suggestion.empty()) suggestion = nearest_name(key, names);
-    attempt([&] { at(item.key()).refuse("unknown key", one_of(names), suggestion); });
+    const auto pointer = pointer_ + pointer_step(item.key());
+    attempt([&] { JsonPlace(item.value(), file_, pointer).refuse("unknown key", one_of(names), suggestion); });
     // The missing key is only a consequence of the misspelt key, so it is not reported separately.
     if (problems_ && !suggestion.empty() && !has(suggestion)) problems_->settle(pointer_ + pointer_step(suggestion));
   }

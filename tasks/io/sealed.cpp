@@ -46,15 +46,6 @@ void check_depth(std::string_view text, const std::string& file) {
   }
 }
 
-std::string read_result(const std::string& file) {
-  try {
-    return read_file(file);
-  } catch (const FileError& error) {
-    if (error.reason() != FileError::Reason::no_file) throw;
-    throw InputError({file, "", "not a regular file", "a file written by isojam", ""});
-  }
-}
-
 /// Reads the first members of an object as long as they are strings, then stops.
 class HeadReader final : public nlohmann::json_sax<Json> {
  public:
@@ -119,6 +110,15 @@ Json parse_sealed(std::string_view text, const std::string& file) {
     return parsed(text);
   } catch (const Json::exception& error) {
     throw InputError({file, "", std::string("not valid JSON: ") + error.what(), "", ""});
+  }
+}
+
+std::string read_result(const std::string& file) {
+  try {
+    return read_file(file);
+  } catch (const FileError& error) {
+    if (error.reason() != FileError::Reason::no_file) throw;
+    throw InputError({file, "", "not a regular file", "a file written by isojam", ""});
   }
 }
 

@@ -309,7 +309,10 @@ std::vector<OptionSet> option_sets(const Manifest& manifest) {
   return sets;
 }
 
-Manifest parse_manifest(std::string_view text, const std::string& file) {
+namespace {
+
+/// Reads the files of /start if `with_start` is true, or if the manifest does not state their digests.
+Manifest parse(std::string_view text, const std::string& file, bool with_start) {
   const auto document = parse_json(text, file);
   Problems problems;
   const JsonPlace root(document, file, "", &problems);
@@ -319,13 +322,17 @@ Manifest parse_manifest(std::string_view text, const std::string& file) {
   problems.refuse_any(document);
   check_together(root, manifest);
   problems.refuse_any(document);
-  if (manifest.start && !root.at("start").has("digests")) load_start(root.at("start"), manifest);
+  if (manifest.start && (with_start || !root.at("start").has("digests"))) load_start(root.at("start"), manifest);
   problems.refuse_any(document);
   return manifest;
 }
 
+}  // namespace
+
+Manifest parse_manifest(std::string_view text, const std::string& file) { return parse(text, file, false); }
+
 Manifest read_manifest(const std::string& file) {
-  return parse_manifest(read_text(file == "-" ? "/dev/stdin" : file), file);
+  return parse(read_text(file == "-" ? "/dev/stdin" : file), file, true);
 }
 
 Json to_json(const Manifest& manifest) {

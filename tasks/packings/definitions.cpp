@@ -124,11 +124,11 @@ SolidDefinitions read_definitions(const JsonPlace& place) {
   SolidDefinitions definitions;
   for (const auto& item : place.value().items()) {
     const auto& name = item.key();
-    definitions.emplace(name, SolidDefinition{placeholder(name)});
-    place.attempt([&] {
+    const bool good = place.attempt([&] {
       check_solid_name(place.at(name), name);
-      definitions.insert_or_assign(name, read_definition(place.at(name), name));
+      definitions.emplace(name, read_definition(place.at(name), name));
     });
+    if (!good) definitions.emplace(name, SolidDefinition{placeholder(name)});
   }
   return definitions;
 }

@@ -117,12 +117,16 @@ Json to_json(const Timing& timing) {
   return {{"wall_seconds", timing.wall_seconds}, {"cpu_seconds", timing.cpu_seconds}};
 }
 
+bool is_in_result_digest(std::string_view key) {
+  return key != "checksum" && key != "timing" && key != "provenance" && key != "result_digest";
+}
+
 std::string result_digest(const Json& record) {
   // Text of the object without the omitted keys, made without copying the object.
   std::string text;
   for (const auto& item : record.items()) {
     const auto& key = item.key();
-    if (key == "checksum" || key == "timing" || key == "provenance" || key == "result_digest") continue;
+    if (!is_in_result_digest(key)) continue;
     text += (text.empty() ? '{' : ',') + Json(key).dump() + ':' + item.value().dump();
   }
   return hex_hash(text + '}');

@@ -16,6 +16,9 @@ inline constexpr std::string_view packing_schema = "isojam.packing.v3";
 /// `timing`.
 Json make_record(const Outcome& outcome);
 
+/// True if the result digest of a record depends on this key of the record.
+bool is_in_result_digest(std::string_view key);
+
 /// The hash of a record without timing, provenance and checksum. Records with the same result have the same hash.
 std::string result_digest(const Json& record);
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <iterator>
 #include <system_error>
 
@@ -11,6 +10,7 @@
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/resource_failure.hpp"
 #include "tasks/io/sealed.hpp"
+#include "tasks/records/abridged.hpp"
 #include "tasks/records/earlier_record.hpp"
 #include "tasks/records/record.hpp"
 #include "tasks/records/state_file.hpp"
@@ -44,20 +44,64 @@ std::vector<RecordIdentity> identities_of(const RecordedReplicate& replicate) {
   return identities;
 }
 
-}  // namespace
+/// Returns the result of `read`. A missing file is an error of the results, because a list or a record names it.
+template <class Read>
+auto expect_present(const std::string& file, const Read& read) {
+  try {
+    return read();
+  } catch (const FileError& error) {
+    if (error.reason() != FileError::Reason::missing) throw;
+    throw InputError({file, "", "the file is missing", "an unchanged file written by isojam", ""});
+  }
+}
 
-RecordedReplicate read_record(const fs::path& directory, const std::string& name) {
-  const auto file = file_in(directory, "records", name);
-  auto record = read_sealed(file);
-  const auto digest = result_digest(record);
-  const bool is_earlier = is_earlier_record(record);
-  if (is_earlier) record = upgraded_record(std::move(record));
+/// Passes the path of a packing or path file, its schema and the identities that it may state to `read`.
+template <class Read>
+auto with_state_file(const fs::path& directory, const RecordedReplicate& replicate, const std::string& folder,
+                     const Read& read) {
+  const auto file = file_in(directory, folder, replicate.name);
+  return expect_present(
+      file, [&] { return read(file, folder == "paths" ? path_schema : packing_schema, identities_of(replicate)); });
+}
+
+/// Summarises a record of the current schema. `digest` is the result digest of the file.
+RecordedReplicate summarised(Json record, const std::string& file, const std::string& name, const std::string& digest,
+                             bool is_earlier) {
   auto summary = summarise_record(record, file);
   if (digest != summary.result_digest)
     throw InputError({file, "/result_digest", "the digest does not match the result", digest, ""});
   if (const auto own = name_of(summary); own != name)
     throw InputError({file, "/spec", "the file name does not match the replicate", own + ".json", ""});
   return {name, std::move(record), std::move(summary), is_earlier};
+}
+
+RecordedReplicate parsed_record(const std::string& text, const std::string& file, const std::string& name) {
+  auto record = parse_sealed(text, file);
+  const auto digest = result_digest(record);
+  const bool is_earlier = is_earlier_record(record);
+  if (is_earlier) record = upgraded_record(std::move(record));
+  return summarised(std::move(record), file, name, digest, is_earlier);
+}
+
+}  // namespace
+
+RecordedReplicate read_record(const fs::path& directory, const std::string& name) {
+  const auto file = file_in(directory, "records", name);
+  return parsed_record(expect_present(file, [&] { return read_result(file); }), file, name);
+}
+
+RecordedReplicate read_abridged_record(const fs::path& directory, const std::string& name) {
+  const auto file = file_in(directory, "records", name);
+  const auto text = expect_present(file, [&] { return read_result(file); });
+  if (auto shorter = abridged(text)) {
+    const auto is = [&](const char* key, std::string_view value) {
+      const auto found = shorter->record.find(key);
+      return found != shorter->record.end() && found->is_string() && found->get_ref<const std::string&>() == value;
+    };
+    if (is("schema", record_schema) && is("result_digest", shorter->result_digest))
+      return summarised(std::move(shorter->record), file, name, shorter->result_digest, false);
+  }
+  return parsed_record(text, file, name);
 }
 
 bool is_of(const RecordedReplicate& replicate, const Manifest& manifest) {
@@ -81,13 +125,12 @@ void check_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec) {
 
 void check_companions(const fs::path& directory, const RecordedReplicate& replicate, bool with_path) {
   if (replicate.summary.failed) return;
-  check_state_file(file_in(directory, "packings", replicate.name), packing_schema, identities_of(replicate));
-  if (with_path) check_state_file(file_in(directory, "paths", replicate.name), path_schema, identities_of(replicate));
+  with_state_file(directory, replicate, "packings", check_state_file);
+  if (with_path) with_state_file(directory, replicate, "paths", check_state_file);
 }
 
 Json read_state_file_of(const fs::path& directory, const RecordedReplicate& replicate, const std::string& folder) {
-  return read_state_file(file_in(directory, folder, replicate.name), folder == "paths" ? path_schema : packing_schema,
-                         identities_of(replicate));
+  return with_state_file(directory, replicate, folder, read_state_file);
 }
 
 bool is_resource_failure_record(const RecordedReplicate& replicate) {
@@ -96,8 +139,9 @@ bool is_resource_failure_record(const RecordedReplicate& replicate) {
 }
 
 std::optional<Manifest> stored_manifest(const fs::path& directory) {
+  const auto file = (directory / "manifest.json").string();
   try {
-    return own_manifest(directory);
+    return parse_manifest(read_file(file), file);
   } catch (const FileError& error) {
     if (error.reason() != FileError::Reason::missing) throw;
     return std::nullopt;
@@ -115,14 +159,10 @@ void expect_directory(const fs::path& directory) {
 
 Manifest own_manifest(const fs::path& directory) {
   expect_directory(directory);
-  const auto file = (directory / "manifest.json").string();
-  try {
-    return parse_manifest(read_file(file), file);
-  } catch (const FileError& error) {
-    if (error.reason() != FileError::Reason::missing) throw;
-    if (names_in(directory / "records").empty()) throw_without_records(directory);
-    throw FileError(file + ": the file is missing; run the manifest again in this directory", error.reason());
-  }
+  if (auto manifest = stored_manifest(directory)) return std::move(*manifest);
+  if (names_in(directory / "records").empty()) throw_without_records(directory);
+  throw InputError({(directory / "manifest.json").string(), "", "the file is missing", "", "",
+                    "run the manifest again in this directory"});
 }
 
 std::vector<std::string> names_in(const fs::path& folder) {
@@ -132,10 +172,8 @@ std::vector<std::string> names_in(const fs::path& folder) {
     const auto name = entry.path().filename().string();
     if (name.front() != '.' && entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   }
-  if (error && error != std::errc::no_such_file_or_directory) {
-    errno = error.value();
-    throw FileError::of_errno(folder, "cannot be listed");
-  }
+  if (error && error != std::errc::no_such_file_or_directory)
+    throw FileError::of_error(folder, "cannot be listed", error);
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -20,9 +20,13 @@ struct RecordedReplicate {
   bool is_earlier = false;  ///< true if the record file has the schema of an earlier version
 };
 
-/// Reads the record with this name. Throws FileError if it does not exist or cannot be read at the moment. Throws
-/// InputError if it is damaged, if its result digest is wrong, or if it describes another replicate than its name.
+/// Reads the record with this name. Throws FileError if it cannot be read at the moment. Throws InputError if it is
+/// missing or damaged, if its result digest is wrong, or if it describes another replicate than its name.
 RecordedReplicate read_record(const std::filesystem::path& directory, const std::string& name);
+
+/// The same with less time, for tables and surveys. The key `path` is missing in `record`, and lists inside its states
+/// may be empty.
+RecordedReplicate read_abridged_record(const std::filesystem::path& directory, const std::string& name);
 
 /// True if the record belongs to this manifest, apart from measures. The identity() of the manifest of the record may
 /// differ only in the measures.
@@ -34,8 +38,8 @@ std::vector<Measure> lacks(const RecordedReplicate& replicate, const Manifest& m
 void check_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec);
 
 /// Checks the packing file of a replicate, and also its path file if `with_path` is true. Does nothing if the replicate
-/// failed. Throws FileError if a file does not exist or cannot be read at the moment. Throws InputError if a file is
-/// damaged or belongs to another record.
+/// failed. Throws FileError if a file cannot be read at the moment. Throws InputError if a file is missing or damaged,
+/// or belongs to another record.
 void check_companions(const std::filesystem::path& directory, const RecordedReplicate& replicate, bool with_path);
 
 /// Reads the packing file or the path file of a replicate; `folder` is "packings" or "paths". Throws the same
@@ -51,11 +55,11 @@ bool is_resource_failure_record(const RecordedReplicate& replicate);
 /// command.
 void expect_directory(const std::filesystem::path& directory);
 
-/// The manifest in a results directory; nullopt if there is none. Throws FileError if the directory does not exist, or
-/// if the manifest cannot be read at the moment. Throws InputError if the manifest is damaged or not valid.
+/// The manifest in a results directory; nullopt if there is none. Throws FileError if the manifest cannot be read at
+/// the moment. Throws InputError if the manifest is damaged or not valid.
 std::optional<Manifest> stored_manifest(const std::filesystem::path& directory);
-/// The manifest in a results directory. Throws the same exceptions as stored_manifest(), and FileError if there is no
-/// manifest.
+/// The manifest in a results directory. Throws the same exceptions as stored_manifest(). If there is no manifest,
+/// throws InputError if the directory has records. Otherwise throws FileError, like expect_directory().
 Manifest own_manifest(const std::filesystem::path& directory);
 
 /// Names of the JSON files in a folder, sorted and without extension. Empty if the folder does not exist. Hidden files,

@@ -1,8 +1,8 @@
 #include "tasks/records/results.hpp"
 
+#include <system_error>
 #include <utility>
 
-#include "tasks/io/file.hpp"
 #include "tasks/packings/packing_json.hpp"
 
 namespace isojam {
@@ -16,13 +16,11 @@ Results read_results(const fs::path& directory, const Warn& warn) {
 }
 
 std::optional<Packing> read_nearest_packing(const fs::path& directory, const RecordedReplicate& replicate) {
-  try {
-    const auto json = read_state_file_of(directory, replicate, "packings");
-    return read_packing({json, (directory / "packings" / (replicate.name + ".json")).string()});
-  } catch (const FileError& error) {
-    if (error.reason() != FileError::Reason::missing) throw;
-    return std::nullopt;
-  }
+  const auto file = directory / "packings" / (replicate.name + ".json");
+  std::error_code error;
+  if (!fs::exists(file, error)) return std::nullopt;
+  const auto json = read_state_file_of(directory, replicate, "packings");
+  return read_packing({json, file.string()});
 }
 
 }  // namespace isojam

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <system_error>
 
 #include "tasks/io/atomic_file.hpp"
@@ -81,9 +80,7 @@ void check_records(const fs::path& directory, const Manifest& manifest, bool all
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!error) return;
-  errno = error.value();
-  throw FileError::of_errno(folder, "cannot be created");
+  if (error) throw FileError::of_error(folder, "cannot be created", error);
 }
 
 void refuse_links(const fs::path& directory) {
@@ -94,7 +91,7 @@ void refuse_links(const fs::path& directory) {
   }
 }
 
-/// Makes a folder inside a results directory, and removes old temporary files from it.
+/// Makes a results directory or a folder inside it, and removes old temporary files from it.
 void make_own_folder(const fs::path& folder) {
   make_folder(folder);
   remove_stale_temporaries(folder);
@@ -153,11 +150,10 @@ Store::Store(fs::path directory, const Manifest& manifest, Warn warn)
       keep_path_(manifest.keep_path),
       warn_(std::move(warn)) {
   check_directory(directory_, manifest, warn_);
-  make_folder(directory_);
+  make_own_folder(directory_);
   kept_ = claim(directory_, manifest);
   // Another process may have written its manifest in the meantime, so check again.
   manifest_in(directory_, manifest);
-  remove_stale_temporaries(directory_);
   for (const auto* folder : {"records", "packings", "checkpoints"}) make_own_folder(directory_ / folder);
   if (keep_path_) make_own_folder(directory_ / "paths");
   remove_outlived_checkpoints(directory_);
@@ -170,6 +166,8 @@ fs::path Store::file(const char* folder, const ReplicateSpec& spec) const {
 
 std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
   const auto path = record_path(spec).string();
+  std::error_code error;
+  if (fs::symlink_status(path, error).type() == fs::file_type::not_found) return std::nullopt;
   std::string theirs;
   try {
     auto held = read_record(directory_, replicate_name(spec));
@@ -187,9 +185,6 @@ std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
     }
   } catch (const InputError& damage) {
     warn_(fmt::format("{}; {}", damage.what(), recomputed));
-  } catch (const FileError& error) {
-    if (error.reason() != FileError::Reason::missing) throw;
-    if (fs::exists(path)) warn_(fmt::format("{}; {}", error.what(), recomputed));
   }
   if (!theirs.empty()) refuse_other(path, digest_pointer, digests(theirs, digest_));
   return std::nullopt;
@@ -265,12 +260,13 @@ Manifest extend_manifest(const fs::path& directory, const std::vector<Measure>& 
 
 void Store::write_tables(const Json& tables) const { write_atomically(tables_path(), sealed(tables)); }
 
-void for_each_record(const fs::path& directory, const Warn& warn, const std::function<void(RecordedReplicate)>& use) {
-  for_each_record(directory, stored_manifest(directory), warn, use);
+void for_each_record(const fs::path& directory, const Warn& warn, const std::function<void(RecordedReplicate)>& use,
+                     ReadRecord read) {
+  for_each_record(directory, stored_manifest(directory), warn, use, read);
 }
 
 void for_each_record(const fs::path& directory, const std::optional<Manifest>& manifest, const Warn& warn,
-                     const std::function<void(RecordedReplicate)>& use) {
+                     const std::function<void(RecordedReplicate)>& use, ReadRecord read_one) {
   const auto names = names_in(directory / "records");
   if (names.empty()) throw_without_records(directory);
   const auto plan = manifest ? std::optional<Plan>(*manifest) : std::nullopt;
@@ -282,7 +278,7 @@ void for_each_record(const fs::path& directory, const std::optional<Manifest>& m
   };
   const auto read = [&](std::size_t index) -> Read {
     try {
-      return {read_record(directory, names[index]), ""};
+      return {read_one(directory, names[index]), ""};
     } catch (const InputError& damage) {
       if (!plan || plan->place_of(names[index])) throw;
       return {std::nullopt, damage.what()};

@@ -93,14 +93,17 @@ Manifest extend_manifest(const std::filesystem::path& directory, const std::vect
 /// Throws the FileError for a path that is not a directory, or for a directory that has no records.
 [[noreturn]] void throw_without_records(const std::filesystem::path& directory);
 
+/// Function that reads a record: read_record() or read_abridged_record().
+using ReadRecord = RecordedReplicate (*)(const std::filesystem::path& directory, const std::string& name);
+
 /// Passes the records of a results directory to `use`, one at a time, in the order of their names. Some records are
 /// skipped with a warning: records of another manifest, and damaged records that are not in the plan of `manifest`. If
 /// `manifest` is nullopt, no record is skipped. Throws InputError for any other damaged record. Throws FileError if the
 /// directory has no records, or if a record cannot be read at the moment.
 void for_each_record(const std::filesystem::path& directory, const std::optional<Manifest>& manifest, const Warn& warn,
-                     const std::function<void(RecordedReplicate)>& use);
+                     const std::function<void(RecordedReplicate)>& use, ReadRecord read = read_record);
 /// The same loop with the manifest in the directory, if there is one.
 void for_each_record(const std::filesystem::path& directory, const Warn& warn,
-                     const std::function<void(RecordedReplicate)>& use);
+                     const std::function<void(RecordedReplicate)>& use, ReadRecord read = read_record);
 
 }  // namespace isojam

@@ -46,7 +46,7 @@ void survey_records(const fs::path& directory, const Plan& plan, bool with_paths
   double measured = 0, estimated = 0;
   for (const auto& name : names_in(directory / "records")) {
     try {
-      const auto held = read_record(directory, name);
+      const auto held = read_abridged_record(directory, name);
       const auto& summary = held.summary;
       const auto place = plan.place_of(name);
       if (!place) {
@@ -59,7 +59,7 @@ void survey_records(const fs::path& directory, const Plan& plan, bool with_paths
       }
       check_companions(directory, held, with_paths);
       const auto spec = plan.at(place->point, place->replicate);
-      if (!is_of(held, plan.manifest())) {
+      if (held.summary.manifest_digest != plan.manifest_digest() && !is_of(held, plan.manifest())) {
         survey.others.push_back(name);
         survey.damaged.push_back(fmt::format("{}: {}", name, other_manifest));
         continue;
@@ -80,9 +80,6 @@ void survey_records(const fs::path& directory, const Plan& plan, bool with_paths
       ++survey.calibration_records;
     } catch (const InputError& damage) {
       survey.damaged.emplace_back(damage.what());
-    } catch (const FileError& error) {
-      if (error.reason() != FileError::Reason::missing) throw;
-      survey.damaged.emplace_back(error.what());
     }
   }
   if (measured > 0 && estimated > 0) survey.calibration = measured / estimated;

@@ -40,14 +40,12 @@ bool failed_before_measures(const RecordedReplicate& held) {
 
 /// Reason why the states of a successful replicate can no longer be measured; nullopt if they can.
 std::optional<std::string> without_path(const fs::path& directory, const RecordedReplicate& held) {
+  if (!fs::exists(file_of(directory, "paths", held.name))) return std::string(states_not_saved);
   try {
     check_companions(directory, held, true);
     return std::nullopt;
   } catch (const InputError& error) {
     return error.what();
-  } catch (const FileError& error) {
-    if (error.reason() != FileError::Reason::missing) throw;
-    return fs::exists(file_of(directory, "paths", held.name)) ? error.what() : std::string(states_not_saved);
   }
 }
 

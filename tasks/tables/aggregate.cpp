@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/arithmetic/elementary.hpp"
@@ -65,42 +66,31 @@ Estimate estimate_of(const Quantity& quantity, const std::vector<double>& values
   return quantity.proportion ? proportion_estimate(values) : estimate(values, key);
 }
 
-/// The values of all replicates of a sweep point, for each quantity.
-class Samples {
- public:
-  void add(std::size_t quantity, double value, bool excluded) {
-    all_[quantity].push_back(value);
-    if (!excluded) kept_[quantity].push_back(value);
-  }
-  bool empty() const {
-    return std::all_of(all_.begin(), all_.end(), [](const auto& values) { return values.empty(); });
-  }
-  /// Estimates without excluded replicates, and estimates over all replicates.
-  std::pair<Estimates, Estimates> estimates(const std::string& point) const {
-    std::pair<Estimates, Estimates> result{no_estimates(), no_estimates()};
-    for (std::size_t i = 0; i < all_.size(); ++i) {
-      const auto& quantity = all_quantities()[i];
-      const auto seed = hash_of(point + std::string(quantity.name));
-      result.first[i] = estimate_of(quantity, kept_[i], seed);
-      result.second[i] = estimate_of(quantity, all_[i], seed);
-    }
-    return result;
-  }
-
- private:
-  std::vector<std::vector<double>> all_{all_quantities().size()}, kept_{all_quantities().size()};
-};
-
 constexpr std::size_t places = 1 + series_distances.size();
 
 }  // namespace
 
-Aggregation::Kept Aggregation::kept(const RecordSummary& record) const {
-  Kept kept{record.result_digest, record.failed, record.flagged, has_any(record, exclude_), record.residual, {}, {}};
+std::optional<double> Aggregation::Kept::at(Cell cell) const {
+  const auto found = std::lower_bound(cells->begin(), cells->end(), cell);
+  if (found == cells->end() || *found != cell) return std::nullopt;
+  return values[static_cast<std::size_t>(found - cells->begin())];
+}
+
+Aggregation::Kept Aggregation::kept(const RecordSummary& record) {
+  Kept kept{hash_of(record.result_digest),
+            record.failed,
+            record.flagged,
+            has_any(record, exclude_),
+            record.residual,
+            nullptr,
+            {},
+            {}};
+  Cells cells;
   const auto keep = [&](const Values& values, std::size_t place) {
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (values[i])
-        kept.cells.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(place), *values[i]});
+      if (!values[i]) continue;
+      cells.push_back(static_cast<Cell>(place * values.size() + i));
+      kept.values.push_back(*values[i]);
     }
   };
   keep(record.values, 0);
@@ -114,15 +104,14 @@ Aggregation::Kept Aggregation::kept(const RecordSummary& record) const {
     keep(interpolated(*at), k + 1);
     keep_angles(interpolated_angles(*at), k + 1);
   }
-  kept.cells.shrink_to_fit();
+  kept.values.shrink_to_fit();
+  kept.cells = &*layouts_.insert(std::move(cells)).first;
   return kept;
 }
 
 Values Aggregation::own_values(const Kept& kept) {
   Values values = no_values();
-  for (const auto& cell : kept.cells) {
-    if (cell.place == 0) values[cell.quantity] = cell.value;
-  }
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = kept.at(static_cast<Cell>(i));
   return values;
 }
 
@@ -142,7 +131,7 @@ void Aggregation::add(const RecordSummary& record) {
   for (const auto flag : record.flags) {
     if (added && std::find(exclude_.begin(), exclude_.end(), flag) != exclude_.end()) ++excluded_[flag];
   }
-  if (!added && place->second.result_digest != record.result_digest) {
+  if (!added && place->second.result != hash_of(record.result_digest)) {
     throw InputError({describe(record), "/result_digest", "two records of this replicate have different results", "",
                       "", "remove one of them"});
   }
@@ -155,10 +144,7 @@ std::optional<GoalOutcome> Aggregation::goal_outcome(const Point& point, const s
   std::vector<std::optional<double>> values;
   for (const auto& [key, replicate] : point.replicates) {
     if (key.first != point.replicates.begin()->first.first || key.second != static_cast<int>(values.size())) break;
-    const auto cell = std::find_if(replicate.cells.begin(), replicate.cells.end(),
-                                   [&](const Cell& c) { return c.place == 0 && c.quantity == quantity; });
-    const bool counts = cell != replicate.cells.end() && !replicate.excluded;
-    values.push_back(counts ? std::optional(cell->value) : std::nullopt);
+    values.push_back(replicate.excluded ? std::nullopt : replicate.at(static_cast<Cell>(*quantity)));
   }
   const auto advance = advance_of(*rule, values);
   return GoalOutcome{*rule->goal, advance.finished ? std::optional(advance.wanted) : std::nullopt, advance.met,
@@ -177,26 +163,48 @@ std::optional<PooledTrough> Aggregation::trough(const PointKey& key, const Point
   return pooled_trough(packings, particles, point_text(solid, particles, parameters));
 }
 
+void Aggregation::put_estimates(const Point& point, const std::string& text, std::size_t place, Estimates& estimates,
+                                Estimates& all) {
+  // The values of one quantity at a time are copied, because all values together would need as much memory again.
+  std::vector<double> every, included;
+  for (std::size_t i = 0; i < all_quantities().size(); ++i) {
+    const auto cell = static_cast<Cell>(place * all_quantities().size() + i);
+    every.clear();
+    included.clear();
+    for (const auto& [name, replicate] : point.replicates) {
+      const auto value = replicate.at(cell);
+      if (value) every.push_back(*value);
+      if (value && !replicate.excluded) included.push_back(*value);
+    }
+    const auto& quantity = all_quantities()[i];
+    const auto seed = hash_of(text + std::string(quantity.name));
+    estimates[i] = estimate_of(quantity, included, seed);
+    all[i] = estimate_of(quantity, every, seed);
+  }
+}
+
 Row Aggregation::row(const PointKey& key, const Point& point, const std::optional<Replicates>& rule) {
   Row row;
   std::tie(row.solid, row.particles, row.parameters) = key;
   row.replicates = static_cast<int>(point.replicates.size());
-  std::array<Samples, places> samples;
+  std::array<bool, places> present{};
+  const Cells* seen = nullptr;
   for (const auto& [name, replicate] : point.replicates) {
     row.failed += replicate.failed;
     row.flagged += replicate.flagged;
     row.excluded += replicate.excluded;
     if (replicate.residual) row.residual = std::max(row.residual.value_or(0), *replicate.residual);
-    for (const auto& cell : replicate.cells) samples[cell.place].add(cell.quantity, cell.value, replicate.excluded);
+    if (std::exchange(seen, replicate.cells) == replicate.cells) continue;
+    for (const auto cell : *replicate.cells) present[cell / all_quantities().size()] = true;
   }
   const auto text = point_text(row.solid, row.particles, row.parameters);
-  std::tie(row.estimates, row.all) = samples[0].estimates(text);
+  put_estimates(point, text, 0, row.estimates, row.all);
   row.trough = trough(key, point, 0);
   for (std::size_t k = 0; k < series_distances.size(); ++k) {
-    if (samples[k + 1].empty()) continue;
-    row.series.push_back({series_distances[k]});
-    std::tie(row.series.back().estimates, row.series.back().all) = samples[k + 1].estimates(text);
-    row.series.back().trough = trough(key, point, k + 1);
+    if (!present[k + 1]) continue;
+    auto& at = row.series.emplace_back(SeriesPoint{series_distances[k]});
+    put_estimates(point, text, k + 1, at.estimates, at.all);
+    at.trough = trough(key, point, k + 1);
   }
   row.goal = goal_outcome(point, rule);
   // The stopping rule chose the number of replicates, unless there is only one number to choose from.

@@ -88,14 +88,17 @@ struct Table {
   std::set<std::string> builds;  ///< builds of the program that made the records or added measures to them
 };
 
-/// Collects records one by one for a table. For each record, it stores only the few kilobytes that the table needs. The
-/// table does not depend on the order in which records are added.
+/// Collects records one by one for a table. For each record, it stores only the values that the table needs, which take
+/// less than a kilobyte. The table does not depend on the order in which records are added.
 class Aggregation {
  public:
   /// Replicates with a flag in `exclude` are excluded from means, and the stopping rule ignores their values. `base`
   /// selects the base rows, see base.hpp.
   explicit Aggregation(std::vector<Flag> exclude = usually_excluded(), Json base = Json::object())
       : exclude_(std::move(exclude)), base_(std::move(base)) {}
+  ~Aggregation() = default;
+  Aggregation(const Aggregation&) = delete;
+  Aggregation& operator=(const Aggregation&) = delete;
 
   /// Adds a record. If a record is added twice, it counts once. Throws InputError if two records of a sweep point have
   /// different settings, or if two records of a replicate have different results.
@@ -106,21 +109,21 @@ class Aggregation {
   Table table(const std::optional<Replicates>& rule = std::nullopt) const;
 
  private:
-  /// A value of a replicate. `quantity` is an index in all_quantities(). If `place` is 0, the value is that of the
-  /// replicate or of its nearest state. If `place` is k > 0, it is the value at series_distances[k − 1].
-  struct Cell {
-    std::uint16_t quantity, place;
-    double value;
-  };
+  /// Number of a value: place · number of quantities + index in all_quantities(). At place 0 are the values of the
+  /// replicate and of its nearest state. At place k > 0 are the values at series_distances[k − 1].
+  using Cell = std::uint16_t;
+  using Cells = std::vector<Cell>;  ///< sorted
   /// The part of a record that the table needs.
   struct Kept {
-    std::string result_digest;
+    std::uint64_t result = 0;  ///< hash of the result digest
     bool failed = false, flagged = false, excluded = false;
     std::optional<double> residual;
-    std::vector<Cell> cells;
+    const Cells* cells = nullptr;  ///< the cells that have a value; most replicates of a study share them
+    std::vector<double> values;    ///< a value for each cell
     std::vector<std::pair<std::size_t, PackedAngles>> angles;  ///< by place
 
     bool counts() const { return !failed && !excluded; }
+    std::optional<double> at(Cell cell) const;
   };
   using PointKey = std::tuple<Mixture, int, Json>;
   using ReplicateKey = std::pair<std::string, int>;  // manifest digest, replicate
@@ -131,9 +134,12 @@ class Aggregation {
     std::map<ReplicateKey, Kept> replicates;
   };
 
-  Kept kept(const RecordSummary& record) const;
+  Kept kept(const RecordSummary& record);
   static Values own_values(const Kept& kept);  ///< values of the replicate and of its nearest state
   static std::optional<PooledTrough> trough(const PointKey& key, const Point& point, std::size_t place);
+  /// Estimates of all quantities at a place, without and with the excluded replicates. `text` seeds the bootstrap.
+  static void put_estimates(const Point& point, const std::string& text, std::size_t place, Estimates& estimates,
+                            Estimates& all);
   static Row row(const PointKey& key, const Point& point, const std::optional<Replicates>& rule);
   std::optional<Differences> differences(const PointKey& key, const Point& point) const;
   static std::optional<GoalOutcome> goal_outcome(const Point& point, const std::optional<Replicates>& rule);
@@ -142,6 +148,7 @@ class Aggregation {
   std::map<Flag, int> excluded_;
   Json base_;
   std::map<PointKey, Point> points_;
+  std::set<Cells> layouts_;  ///< the distinct lists of cells
   std::set<std::string> builds_;
 };
 

@@ -89,7 +89,8 @@ Table table_of(const std::vector<std::string>& directories, const Warn& warn, co
   Aggregation aggregation(choices.exclude ? *choices.exclude : common_exclusions(directories, manifests),
                           choices.base ? *choices.base : common_base(directories, manifests));
   for (const auto& directory : directories)
-    for_each_record(directory, warn, [&](const RecordedReplicate& held) { aggregation.add(held.summary); });
+    for_each_record(
+        directory, warn, [&](const RecordedReplicate& held) { aggregation.add(held.summary); }, read_abridged_record);
   return told(aggregation.table(common_rule(manifests)), warn);
 }
 
@@ -105,10 +106,13 @@ std::optional<std::string> misplaced_base(const Table& table) {
 Table table_of(const std::string& directory, const Manifest& manifest, const Warn& warn,
                const std::function<void(const RecordedReplicate&)>& seen) {
   Aggregation aggregation(manifest.exclude, manifest.base);
-  for_each_record(directory, manifest, warn, [&](const RecordedReplicate& held) {
-    aggregation.add(held.summary);
-    seen(held);
-  });
+  for_each_record(
+      directory, manifest, warn,
+      [&](const RecordedReplicate& held) {
+        aggregation.add(held.summary);
+        seen(held);
+      },
+      read_abridged_record);
   return told(aggregation.table(manifest.replicates), warn);
 }
 

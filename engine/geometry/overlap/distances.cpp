@@ -59,6 +59,7 @@ class Scan {
     Lanes highest = Lanes::all(-SolidArrays::far);
     repeat(vectors_, [&](int k) { highest = max(highest, tagged<Solids::tags>(lowest_[k], 4 * k)); });
     d.nearest = least(nearest_).first();
+    // The plane with the greatest lowest distance is the least penetrated one.
     d.least_penetration = -greatest(highest).first();
     d.least_penetrated = static_cast<int>(tag_of<Solids::tags>(d.least_penetration));
   }

@@ -22,7 +22,7 @@ ChartConfig config_of(const ChartArguments& arguments) {
 void make_directory(const std::filesystem::path& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (error) throw FileError(directory.string() + ": cannot be created: " + error.message());
+  if (error) throw FileError::of_error(directory, "cannot be created", error);
   check_writable(directory);
 }
 

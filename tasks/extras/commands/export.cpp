@@ -8,8 +8,8 @@
 
 #include "tasks/commands/shared.hpp"
 #include "tasks/extras/commands/extra_commands.hpp"
-#include "tasks/io/file.hpp"
 #include "tasks/io/input_error.hpp"
+#include "tasks/io/usage_error.hpp"
 #include "tasks/records/store.hpp"
 #include "tasks/records/texts.hpp"
 
@@ -25,13 +25,13 @@ bool is_table(Exported what) {
 void check_options(const ExportArguments& arguments) {
   const auto format = to_string(arguments.what);
   if (!is_table(arguments.what) && arguments.output.empty())
-    throw FileError(
+    throw UsageError(
         fmt::format("--format {} needs an output; give a file with -o, or a directory for all replicates", format));
   if (arguments.path && (arguments.what == Exported::replicates || arguments.what == Exported::states))
-    throw FileError(
+    throw UsageError(
         fmt::format("--path cannot be combined with --format {}; use it with packings or contacts", format));
   if (arguments.contacts && arguments.what != Exported::gsd && arguments.what != Exported::vtp)
-    throw FileError("--contacts needs --format gsd or vtp; use --format contacts for a table of contacts");
+    throw UsageError("--contacts needs --format gsd or vtp; use --format contacts for a table of contacts");
 }
 
 ExitCode export_results(const ExportArguments& arguments, Console& console) {
@@ -70,7 +70,7 @@ bool has_packing(const ExportArguments& arguments, const RecordedReplicate& held
   const auto failure = failure_text({held.record, record_file(arguments, held.name)});
   if (!failure) return true;
   const auto message = fmt::format("{} {}; it has no packing", held.name, *failure);
-  if (!arguments.all()) throw FileError(message);
+  if (!arguments.all()) throw UsageError(message);
   console.warn(message);
   return false;
 }

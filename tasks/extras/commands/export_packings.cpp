@@ -11,6 +11,7 @@
 #include "tasks/io/atomic_file.hpp"
 #include "tasks/io/file.hpp"
 #include "tasks/io/standard_streams.hpp"
+#include "tasks/io/usage_error.hpp"
 
 namespace isojam {
 namespace fs = std::filesystem;
@@ -54,7 +55,7 @@ void export_replicate(const ExportArguments& arguments, const std::optional<Mani
   auto files = exported_files(frames, format_of(arguments.what), arguments.path, output);
   if (is_stream(output)) std::erase_if(files, [&](const ExportedFile& file) { return file.path != output; });
   if (files.empty())
-    throw FileError(
+    throw UsageError(
         fmt::format("{}: several files cannot be written to a stream; choose a regular file", output.string()));
   for (const auto& exported : files) {
     write_output(exported.path, exported.bytes);
@@ -73,7 +74,7 @@ ExitCode export_packings(const ExportArguments& arguments, Console& console) {
   }
   std::error_code error;
   fs::create_directories(arguments.output, error);
-  if (error) throw FileError(fmt::format("{}: cannot be created: {}", arguments.output, error.message()));
+  if (error) throw FileError::of_error(arguments.output, "cannot be created", error);
   for (const auto& name : names) {
     const auto file = name + std::string(extension_of(format_of(arguments.what), arguments.path));
     export_replicate(arguments, manifest, name, fs::path(arguments.output) / file, console);

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "tasks/extras/export/formats.hpp"
-#include "tasks/io/file.hpp"
+#include "tasks/io/usage_error.hpp"
 
 namespace isojam {
 namespace fs = std::filesystem;
@@ -51,7 +51,7 @@ std::vector<ExportedFile> xyz_files(std::span<const ExportFrame> frames, const f
   auto solid = output;
   solid.replace_extension(".obj");
   if (solid == output) {
-    throw FileError(
+    throw UsageError(
         fmt::format("{}: this name is reserved for the shape of the solid; choose another extension", output.string()));
   }
   std::vector<ExportedFile> files{{output, xyz_file(frames)}};

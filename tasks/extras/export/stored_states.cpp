@@ -1,10 +1,8 @@
 #include "tasks/extras/export/stored_states.hpp"
 
-#include <fmt/format.h>
-
 #include <system_error>
 
-#include "tasks/io/file.hpp"
+#include "tasks/io/input_error.hpp"
 #include "tasks/io/place.hpp"
 #include "tasks/packings/packing_json.hpp"
 #include "tasks/records/texts.hpp"
@@ -26,9 +24,8 @@ std::optional<double> distance_of(const JsonPlace& state) {
 std::vector<StoredState> states_of_path(const fs::path& directory, const RecordedReplicate& held) {
   const auto file = file_of(directory, "paths", held.name);
   std::error_code error;
-  if (!fs::exists(file, error)) {
-    throw FileError(fmt::format("{}: {}; {}", file, states_not_saved, how_to_keep_states));
-  }
+  if (!fs::exists(file, error))
+    throw InputError({file, "", std::string(states_not_saved), "", "", std::string(how_to_keep_states)});
   const auto json = read_state_file_of(directory, held, "paths");
   const auto states = JsonPlace(json, file).at("states");
   const auto count = states.expect_list(list_of_states);

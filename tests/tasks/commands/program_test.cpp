@@ -1,8 +1,10 @@
 // Properties tested here through the executable:
 // - For every invalid manifest of bad_manifests(), `run` and `validate` exit with 65 and print one line that names the
 //   file. Nothing is written.
+// - `validate` reads the files of a start, also if the manifest states their digests.
 // - If there are several errors, each has a line with the file. Warnings are printed in addition to OK.
 // - Usage errors, and paths that cannot be read or written, end with exit 2 and one error. Nothing is written.
+// - A manifest with very many keys does not block the program.
 // - For an unknown command or option, the message suggests the most similar one. For a missing argument or value, or
 //   one that is too many, it names this argument or value.
 // - A missing or empty directory gives the same error in every command.
@@ -64,6 +66,20 @@ TEST(Program, ValidatesAGoodManifest) {
   EXPECT_EQ(files_below(directory.path()).size(), 1U);
 }
 
+TEST(Program, ValidateReadsTheFilesOfAStartWithDigests) {
+  const TemporaryDirectory directory;
+  auto manifest = test::good_manifest();
+  manifest["start"] = {{"packing", "absent.gsd"}, {"digests", {"0000000000000000"}}};
+  manifest["replicates"] = 1;
+  test::write_text(directory / "m.json", manifest.dump());
+  for (const std::string command : {"validate", "run"}) {
+    const auto ended = isojam({command, "m.json"}, directory.path());
+    EXPECT_EQ(ended.exit_code, 65) << command << ": " << ended.err;
+    EXPECT_EQ(ended.err.rfind("isojam: error: m.json: /start/packing: ", 0), 0U) << command << ": " << ended.err;
+    EXPECT_NE(ended.err.find("absent.gsd: cannot be read"), std::string::npos) << command << ": " << ended.err;
+  }
+}
+
 TEST(Program, ReportsEachErrorOfAManifestInALine) {
   const TemporaryDirectory directory;
   auto manifest = test::good_manifest();
@@ -88,6 +104,17 @@ TEST(Program, WarnsOfUnsuitableSettings) {
   EXPECT_EQ(lines_of(validate.err), 2) << validate.err;
   for (const std::string key : {"final_distance", "max_density"})
     EXPECT_NE(validate.err.find("isojam: warning: m.json: /protocol/" + key + ": "), std::string::npos) << validate.err;
+}
+
+TEST(Program, AHundredThousandUnknownKeysAreRefused) {
+  const TemporaryDirectory directory;
+  std::string text = "{\"name\": \"a\"";
+  for (int k = 0; k < 100000; ++k) text += ", \"k" + std::to_string(k) + "\": 1";
+  test::write_text(directory / "m.json", text + "}");
+  // A time in proportion to the square of the number of keys would be a minute.
+  const auto ended = test::shell("ulimit -t 30; $ISOJAM validate m.json", directory.path());
+  EXPECT_EQ(ended.exit_code, 65) << ended.err;
+  EXPECT_EQ(lines_of(ended.err), 101) << ended.err.substr(0, 1000);
 }
 
 TEST(Program, NamesWrongAndMissingArguments) {
@@ -187,6 +214,7 @@ TEST(Program, UsageErrorsEndWithTwo) {
       {"aggregate", "absent"},
       {"aggregate", "."},
       {"aggregate", ".", "--format", "xml"},
+      {"aggregate", ".", "--base", "step_fraction=\xff"},
   };
   for (const auto& arguments : wrong) {
     std::string command;
@@ -194,6 +222,7 @@ TEST(Program, UsageErrorsEndWithTwo) {
     const auto run = isojam(arguments, directory.path());
     EXPECT_EQ(run.exit_code, 2) << command << ": " << run.err;
     EXPECT_NE(run.err, "") << command;
+    EXPECT_EQ(run.err.find("json.exception"), std::string::npos) << command << ": " << run.err;
     EXPECT_EQ(run.out, "") << command;
   }
   EXPECT_EQ(files_below(directory.path()).size(), 1U);

@@ -1,7 +1,8 @@
 // Properties tested here:
 // - A file is replaced completely or not at all, and a failed write leaves nothing behind. If several writers create a
-//   new file, exactly one of them succeeds.
-// - Output to a path that a user names follows links and pipes, and keeps the mode of an existing file.
+//   new file, exactly one of them succeeds, even on a file system without hard links and renames that do not replace.
+// - Output to a path that a user names follows links and pipes, and keeps the mode of an existing file. A link of
+//   another user in a folder that everyone can write to is refused.
 // - A result must be a regular file: a pipe or an endless device is detected at once. A user's input file may be a
 //   pipe.
 // - A process counts as running until it ends. A later process with the same number is not confused with it.
@@ -22,6 +23,7 @@
 #include "tasks/io/atomic_file.hpp"
 #include "tasks/io/process.hpp"
 #include "tasks/io/standard_streams.hpp"
+#include "tests/tasks/run/failing.hpp"
 #include "tests/tasks/support/support.hpp"
 
 namespace isojam {
@@ -69,6 +71,53 @@ TEST(AtomicFile, OnlyOneOfSeveralWritersSucceeds) {
     EXPECT_EQ(files_below(directory.path()),
               (std::map<std::string, std::string>{{"f.json", std::string(1000, winner)}}));
   }
+}
+
+TEST(AtomicFile, OnlyOneWriterSucceedsWithoutLinksAndExclusiveRenames) {
+  if (test::with_sanitizer) GTEST_SKIP() << "a sanitizer has the library's calls for itself";
+  const TemporaryDirectory directory;
+  const test::Failing failing("link 1+ 95;renameat2 1+ 22");
+  const auto self = fs::read_symlink("/proc/self/exe").string();
+  const auto ended = test::shell(self + " --gtest_filter=AtomicFile.OnlyOneOfSeveralWritersSucceeds", directory.path());
+  EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
+  EXPECT_NE(ended.out.find("[  PASSED  ] 1 test."), std::string::npos) << ended.out;
+}
+
+TEST(AtomicFile, AStaleClaimIsNamed) {
+  if (test::with_sanitizer) GTEST_SKIP() << "a sanitizer has the library's calls for itself";
+  const TemporaryDirectory directory;
+  test::write_text(directory / "m.json", test::tiny_manifest().dump());
+  fs::create_directory(directory / "results");
+  test::write_text(directory / "results/.manifest.json.claim.tmp", "");
+  const test::Failing failing("link 1+ 95;renameat2 1+ 22");
+  const auto ended = test::isojam({"run", "m.json", "-o", "results"}, directory.path());
+  EXPECT_EQ(ended.exit_code, 1) << ended.err;
+  EXPECT_NE(ended.err.find("remove results/.manifest.json.claim.tmp"), std::string::npos) << ended.err;
+}
+
+TEST(Output, RefusesALinkOfAnotherUserInASharedFolder) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can make a link of another user";
+  const TemporaryDirectory directory;
+  const auto target = directory / "target", shared = directory / "shared", link = shared / "link";
+  test::write_text(target, "before");
+  fs::create_directory(shared);
+  fs::create_symlink(target, link);
+  constexpr uid_t other = 65534;
+  ASSERT_EQ(lchown(link.c_str(), other, other), 0);
+  ASSERT_EQ(chmod(shared.c_str(), 01777), 0);
+  EXPECT_THROW(write_output(link, "after"), FileError);
+  EXPECT_EQ(read_text(target), "before");
+  const auto ended = test::shell("$ISOJAM manual -o shared/link", directory.path());
+  EXPECT_EQ(ended.exit_code, 1) << ended.err;
+  EXPECT_NE(ended.err.find("shared/link: is a symbolic link of another user"), std::string::npos) << ended.err;
+  EXPECT_EQ(read_text(target), "before");
+  // The kernel follows links of the owner of the folder, and all links in a folder that is not shared.
+  ASSERT_EQ(chown(shared.c_str(), other, other), 0);
+  EXPECT_NO_THROW(write_output(link, "of the owner"));
+  ASSERT_EQ(chown(shared.c_str(), 0, 0), 0);
+  ASSERT_EQ(chmod(shared.c_str(), 0755), 0);
+  EXPECT_NO_THROW(write_output(link, "after"));
+  EXPECT_EQ(read_text(target), "after");
 }
 
 TEST(Output, FollowsLinksAndKeepsModes) {

@@ -1,6 +1,7 @@
 // Properties tested here for directories that a run left or is still using:
 // - `status` reports the records, the unfinished replicates, and whether a process works on them. Meanwhile it reports
 //   no damage. After the stopping rule has ended the study, it estimates no remaining time.
+// - A shard prints the command that makes the tables, with quotation marks for a shell.
 // - If a record, packing or path disappears while others are made, a run or a shard reports an error, and no table is
 //   made.
 // - `rerun` recomputes a replicate and finds the same bits, or reports that there was nothing to compare with.
@@ -71,6 +72,46 @@ TEST_F(Crash, StatusEstimatesNoTimeAfterTheEndOfTheStoppingRule) {
   EXPECT_NE(missing.out.find("the missing replicates need at most "), std::string::npos) << missing.out;
 }
 
+TEST_F(Crash, MissingResultsAreNoUsageError) {
+  const std::string name = "dodecahedron-N24-r0000";
+  const auto export_as = [&](const std::string& format) {
+    return std::vector<std::string>{"export", "results", name, "--format", format, "-o", "x"};
+  };
+  auto path = export_as("gsd");
+  path.emplace_back("--path");
+  struct Case {
+    std::string removed;
+    std::vector<std::vector<std::string>> commands;
+  };
+  const std::vector<Case> cases{
+      {"packings/" + name + ".json", {export_as("gsd"), export_as("contacts")}},
+      {"paths/" + name + ".json", {path}},
+      {"manifest.json", {{"status", "results"}, {"rerun", "results", name}, {"measure", "results"}}}};
+  for (const auto& [removed, commands] : cases) {
+    fs::remove_all(here_ / "results");
+    copy_reference();
+    fs::remove(here_ / "results" / removed);
+    for (const auto& command : commands) {
+      const auto ended = isojam(command, here_.path());
+      EXPECT_EQ(ended.exit_code, 65) << removed << ": " << command[0] << ": " << ended.err;
+      EXPECT_NE(ended.err.find("results/" + removed + ": "), std::string::npos) << ended.err;
+    }
+  }
+  // The record is listed, but its content is not there.
+  fs::remove_all(here_ / "results");
+  copy_reference();
+  fs::remove(here_ / "results/records" / (name + ".json"));
+  fs::create_symlink("nowhere", here_ / "results/records" / (name + ".json"));
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"aggregate", "results"}, {"report", "results"}, export_as("gsd")}) {
+    const auto ended = isojam(command, here_.path());
+    EXPECT_EQ(ended.exit_code, 65) << command[0] << ": " << ended.err;
+    EXPECT_NE(ended.err.find(name + ".json: the file is missing"), std::string::npos) << ended.err;
+  }
+  EXPECT_EQ(run().exit_code, 0);
+  EXPECT_EQ(results(), reference());
+}
+
 TEST_F(Crash, FilesThatDisappearAreNoticed) {
   for (const std::string folder : {"records", "packings", "paths"}) {
     const auto remove_one = [&](int) {
@@ -92,6 +133,12 @@ TEST_F(Crash, FilesThatDisappearAreNoticed) {
     EXPECT_EQ(run().exit_code, 0);
     EXPECT_EQ(results(), reference());
   }
+}
+
+TEST_F(Crash, AShardPrintsTheNextCommandForAShell) {
+  const auto shard = isojam({"run", "m.json", "-o", "my dir", "--shard", "1/6"}, here_.path());
+  EXPECT_EQ(shard.exit_code, 0) << shard.err;
+  EXPECT_NE(shard.err.find("\"isojam aggregate 'my dir' -o 'my dir/tables.json'\""), std::string::npos) << shard.err;
 }
 
 TEST_F(Crash, TheTableBelongsToTheManifestThatWasRun) {

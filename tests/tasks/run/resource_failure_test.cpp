@@ -3,6 +3,8 @@
 //   no outcome is recorded. A complete directory does not change, byte by byte. When the calls work again, an
 //   unfinished study gives the same bytes.
 // - The same is true with little memory from the start.
+// - A limit of the stack that is too small for the program has no effect.
+// - A file system needs neither hard links, nor renames that do not replace, nor synchronised directories.
 
 #include <gtest/gtest.h>
 
@@ -129,6 +131,30 @@ TEST_F(ResourceFailure, ARerunThatCannotBeWrittenKeepsTheRecord) {
     EXPECT_EQ(ended.exit_code, 1) << order << ": " << ended.err;
     EXPECT_NE(ended.err.find("error: "), std::string::npos) << order << ": " << ended.err;
     EXPECT_EQ(test::files_below(here_ / "results"), before) << order;
+  }
+}
+
+TEST_F(ResourceFailure, ASmallStackIsSufficient) {
+  auto manifest = test::tiny_manifest();
+  manifest["measure"] = {"contacts", "modes"};
+  manifest["replicates"] = 1;
+  manifest["sweep"]["particles"] = {24};
+  test::write_text(here_ / "m.json", manifest.dump());
+  const auto usual = test::shell("$ISOJAM run m.json -o usual -j 1", here_.path());
+  EXPECT_EQ(usual.exit_code, 0) << usual.err;
+  const auto little = test::shell("ulimit -s 64; $ISOJAM run m.json -o little -j 1", here_.path());
+  EXPECT_EQ(little.exit_code, 0) << little.err;
+  EXPECT_EQ(test::results_below(here_ / "little"), test::results_below(here_ / "usual"));
+}
+
+TEST_F(ResourceFailure, FileSystemsWithFewFunctionsAreSufficient) {
+  const auto reference = test::results_below(*shared_ / "results");
+  for (const std::string order : {"syncdir 1+ 22", "syncdir 1+ 95", "link 1+ 95;renameat2 1+ 22", "link 1+ 1"}) {
+    fs::remove_all(here_ / "results");
+    const Failing failing(order);
+    const auto ended = run();
+    EXPECT_EQ(ended.exit_code, 0) << order << ": " << ended.err;
+    EXPECT_EQ(test::results_below(here_ / "results"), reference) << order;
   }
 }
 

@@ -1,13 +1,16 @@
 // This library is preloaded into a process. It lets the system calls fail that ISOJAM_FAIL names. "read 7 5" sets errno
 // to 5 (EIO) in the seventh read; "read 7+ 5" does so in the seventh and all later ones. With "count" instead of a
 // number, no call fails, and the number of calls is printed at the end. "open count 0 records/a.json" counts the opened
-// paths that end in this way. Calls: malloc, open, read, write, fsync, rename, link, thread.
+// paths that end in this way. Several orders are separated by ";". Calls: malloc, open, read, write, fsync, syncdir
+// (fsync of a directory), rename, renameat2, link, thread.
 
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
@@ -25,10 +28,8 @@ struct Order {
   char path[256] = "";  ///< end of the paths that count; empty for all paths
 };
 
-Order read_order() {
+Order read_order(const char* text) {
   Order order;
-  const char* text = std::getenv("ISOJAM_FAIL");
-  if (!text) return order;
   char which[24] = "";
   std::sscanf(text, "%15s %23s %d %255s", order.call, which, &order.error, order.path);
   order.count = std::strcmp(which, "count") == 0;
@@ -37,32 +38,54 @@ Order read_order() {
   return order;
 }
 
-const Order& order() {
-  static const Order the_order = read_order();
-  return the_order;
+constexpr std::size_t most_orders = 4;
+using Orders = std::array<Order, most_orders>;
+
+Orders read_orders() {
+  Orders all;
+  const char* text = std::getenv("ISOJAM_FAIL");
+  for (std::size_t k = 0; text && k < most_orders; ++k) {
+    all[k] = read_order(text);
+    text = std::strchr(text, ';');
+    if (text) ++text;
+  }
+  return all;
 }
 
-std::atomic<long> calls{0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+const Orders& orders() {
+  static const Orders the_orders = read_orders();
+  return the_orders;
+}
+
+std::array<std::atomic<long>, most_orders> calls;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 /// True, with errno set, if this call must fail.
 bool fails(const char* call) {
-  const Order& what = order();
-  if (std::strcmp(call, what.call) != 0) return false;
-  const long k = ++calls;
-  if (what.count || k < what.first || (k > what.first && !what.ever_after)) return false;
-  errno = what.error;
-  return true;
+  for (std::size_t i = 0; i < most_orders; ++i) {
+    const Order& what = orders()[i];
+    if (std::strcmp(call, what.call) != 0) continue;
+    const long k = ++calls[i];
+    if (what.count || k < what.first || (k > what.first && !what.ever_after)) continue;
+    errno = what.error;
+    return true;
+  }
+  return false;
 }
 
 bool is_counted(const char* path) {
-  const auto size = std::strlen(path), end = std::strlen(order().path);
-  return size >= end && std::strcmp(path + size - end, order().path) == 0;
+  const auto size = std::strlen(path), end = std::strlen(orders()[0].path);
+  return size >= end && std::strcmp(path + size - end, orders()[0].path) == 0;
+}
+
+bool is_directory(int fd) {
+  struct stat status {};
+  return ::fstat(fd, &status) == 0 && S_ISDIR(status.st_mode);
 }
 
 __attribute__((destructor)) void say_count() {
-  if (!order().count) return;
+  if (!orders()[0].count) return;
   char text[64];
-  const int size = std::snprintf(text, sizeof text, "%s calls: %ld\n", order().call, calls.load());
+  const int size = std::snprintf(text, sizeof text, "%s calls: %ld\n", orders()[0].call, calls[0].load());
   if (::write(STDERR_FILENO, text, static_cast<std::size_t>(size)) < 0) std::abort();
 }
 
@@ -107,11 +130,15 @@ ssize_t write(int fd, const void* buffer, std::size_t size) {
 }
 int fsync(int fd) {
   static const auto real = next<int (*)(int)>("fsync");
-  return fails("fsync") ? -1 : real(fd);
+  return fails("fsync") || (is_directory(fd) && fails("syncdir")) ? -1 : real(fd);
 }
 int rename(const char* from, const char* to) {
   static const auto real = next<int (*)(const char*, const char*)>("rename");
   return fails("rename") ? -1 : real(from, to);
+}
+int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) {
+  static const auto real = next<int (*)(int, const char*, int, const char*, unsigned)>("renameat2");
+  return fails("renameat2") ? -1 : real(from_folder, from, to_folder, to, flags);
 }
 int link(const char* from, const char* to) {
   static const auto real = next<int (*)(const char*, const char*)>("link");

@@ -1,4 +1,5 @@
 // Properties tested here:
+// - The memory of a record is little more than that of its values.
 // - The table does not depend on the order of the records, or on whether a record is given twice.
 // - Failed replicates are counted but are in no mean. Flagged replicates are counted, and are in the means unless their
 //   flag is excluded. Excluded replicates are only in the means over all.
@@ -13,6 +14,7 @@
 #include "tasks/records/summary.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +54,24 @@ std::string refusal(const std::function<void()>& action) {
   }
   return "";
 }
+
+#if !defined(__SANITIZE_ADDRESS__)
+TEST(Aggregate, KeepsOnlyTheValuesOfARecord) {
+  auto summary = summaries().front();
+  const auto row = aggregate(std::vector<RecordSummary>{summary}).rows.at(0);
+  const auto values_in = [](const Estimates& estimates) {
+    return std::count_if(estimates.begin(), estimates.end(), [](const Estimate& estimate) { return estimate.n > 0; });
+  };
+  auto values = values_in(row.all);
+  for (const auto& point : row.series) values += values_in(point.all);
+  constexpr int records = 2000;
+  Aggregation aggregation;
+  const auto before = mallinfo2().uordblks;
+  for (summary.replicate = 0; summary.replicate < records; ++summary.replicate) aggregation.add(summary);
+  const auto bytes = static_cast<long>((mallinfo2().uordblks - before) / records);
+  EXPECT_LT(bytes, 260 + static_cast<long>(sizeof(double)) * values) << values;
+}
+#endif
 
 TEST(Aggregate, OrderAndRepetitionDoNotMatter) {
   auto records = summaries();

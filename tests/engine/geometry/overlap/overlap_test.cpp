@@ -80,7 +80,7 @@ TEST(OverlapTest, RotatingBothSolidsChangesNothing) {
 
 /// A contact that was constructed. At depth δ, B has this orientation and its centre is at start − δ·normal, in the
 /// frame of A.
-struct Contact {
+struct ConstructedContact {
   SolidKind kind;
   Quaterniond orientation;
   Vector3d start;   ///< x_B at depth 0
@@ -99,19 +99,19 @@ Vector3d middle(const ConvexSolid& solid, const Edge& edge) {
 
 /// Places B on the point `on` of A. `feature` is a point of the surface of B, and `outward` the direction there. B is
 /// rotated so that `outward` points along −normal, and then by `spin` about the normal.
-Contact facing(SolidKind kind, const Vector3d& on, const Vector3d& normal, const Vector3d& feature,
-               const Vector3d& outward, double spin) {
+ConstructedContact facing(SolidKind kind, const Vector3d& on, const Vector3d& normal, const Vector3d& feature,
+                          const Vector3d& outward, double spin) {
   const Quaterniond q = rotation_about(normal, spin) * Quaterniond::FromTwoVectors(outward, -normal);
   return {kind, q.normalized(), on - q.normalized() * feature, normal};
 }
 
 std::uint64_t bit(int k) { return std::uint64_t{1} << k; }
 
-Contact vertex_on_face(SolidKind kind, double spin) {
+ConstructedContact vertex_on_face(SolidKind kind, double spin) {
   const ConvexSolid& solid = platonic(kind);
   const Face& face = solid.faces()[1];
   const Vector3d& vertex = solid.vertices()[2];
-  Contact contact = facing(kind, face.offset * face.normal, face.normal, vertex, vertex.normalized(), spin);
+  ConstructedContact contact = facing(kind, face.offset * face.normal, face.normal, vertex, vertex.normalized(), spin);
   contact.faces_a = bit(1);
   for (std::size_t e = 0; e < solid.edges().size(); ++e) {
     const Edge& edge = solid.edges()[e];
@@ -122,21 +122,21 @@ Contact vertex_on_face(SolidKind kind, double spin) {
   return contact;
 }
 
-Contact edge_on(SolidKind kind, const Vector3d& on, const Vector3d& normal, double spin) {
+ConstructedContact edge_on(SolidKind kind, const Vector3d& on, const Vector3d& normal, double spin) {
   const ConvexSolid& solid = platonic(kind);
   const Edge& edge = solid.edges()[1];
   const Vector3d m = middle(solid, edge);
-  Contact contact = facing(kind, on, normal, m, m.normalized(), spin);
+  ConstructedContact contact = facing(kind, on, normal, m, m.normalized(), spin);
   contact.edges_b = bit(1);
   contact.faces_b = bit(edge.left) | bit(edge.right);
   return contact;
 }
 
-Contact edge_on_edge(SolidKind kind, double crossing_angle) {
+ConstructedContact edge_on_edge(SolidKind kind, double crossing_angle) {
   const ConvexSolid& solid = platonic(kind);
   const Edge& edge = solid.edges()[0];
   const Vector3d m = middle(solid, edge), normal = m.normalized();
-  Contact contact = edge_on(kind, m, normal, 0);
+  ConstructedContact contact = edge_on(kind, m, normal, 0);
   // Rotate until the edges cross at the given angle.
   const Vector3d p = (solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized();
   const Edge& other = solid.edges()[1];
@@ -148,15 +148,15 @@ Contact edge_on_edge(SolidKind kind, double crossing_angle) {
   return contact;
 }
 
-Contact edge_on_face(SolidKind kind, double spin) {
+ConstructedContact edge_on_face(SolidKind kind, double spin) {
   const Face& face = platonic(kind).faces()[1];
-  Contact contact = edge_on(kind, face.offset * face.normal, face.normal, spin);
+  ConstructedContact contact = edge_on(kind, face.offset * face.normal, face.normal, spin);
   contact.faces_a = bit(1);
   return contact;
 }
 
 /// The contact of edge 1 of B with face 1 of A, with all features that have a vertex in common with them.
-Contact with_neighbours(Contact contact) {
+ConstructedContact with_neighbours(ConstructedContact contact) {
   const ConvexSolid& solid = platonic(contact.kind);
   const auto meets = [](const Edge& edge, const auto& vertices) {
     return std::any_of(vertices.begin(), vertices.end(), [&](int v) { return v == edge.tail || v == edge.head; });
@@ -174,13 +174,13 @@ Contact with_neighbours(Contact contact) {
   return contact;
 }
 
-Contact face_on_face(SolidKind kind, double spin) {
+ConstructedContact face_on_face(SolidKind kind, double spin) {
   const Face &face = platonic(kind).faces()[1], &other = platonic(kind).faces()[0];
   return facing(kind, face.offset * face.normal, face.normal, other.offset * other.normal, other.normal, spin);
 }
 
 /// d log V/d log δ between δ and 2δ.
-double exponent(const Contact& contact, double depth) {
+double exponent(const ConstructedContact& contact, double depth) {
   return std::log2(contact.volume(2 * depth) / contact.volume(depth));
 }
 
@@ -220,7 +220,7 @@ TEST_P(OverlapOfConstructedContacts, EdgeOnFaceIsQuadraticAndFaceOnFaceLinear) {
 TEST_P(OverlapOfConstructedContacts, VectorAreaIsTheDerivativeOfTheVolume) {
   const double depth = 1e-2 * size(), h = 1e-5 * size();
   for (const double spin : spins) {
-    const Contact contact = vertex_on_face(GetParam(), spin);
+    const ConstructedContact contact = vertex_on_face(GetParam(), spin);
     const Overlap there = overlap(contact.at(depth));
     const double slope = (contact.volume(depth + h) - contact.volume(depth - h)) / (2 * h);
     // For V = cδ³ the error of the central difference is ch², compared with the slope 3cδ².
@@ -232,13 +232,13 @@ TEST_P(OverlapOfConstructedContacts, VectorAreaIsTheDerivativeOfTheVolume) {
 TEST_P(OverlapOfConstructedContacts, FeaturesAreAsConstructed) {
   const double depth = 1e-3 * size();
   for (const double spin : spins) {
-    for (const Contact& contact :
+    for (const ConstructedContact& contact :
          {vertex_on_face(GetParam(), spin), edge_on_edge(GetParam(), spin + 0.5), edge_on_face(GetParam(), spin)}) {
       const Overlap seen = overlap(contact.at(depth));
       const Overlap clipped = clipped_overlap(platonic(GetParam()), platonic(GetParam()), contact.at(depth).relative());
       // For an edge on a face, features near the ends of the edge are also reported.
       const bool ends = contact.edges_a.empty() && contact.edges_b.count() == 1;
-      const Contact allowed = ends ? with_neighbours(contact) : contact;
+      const ConstructedContact allowed = ends ? with_neighbours(contact) : contact;
       for (const Overlap& result : {seen, clipped}) {
         EXPECT_EQ(result.faces_a & contact.faces_a, contact.faces_a) << "spin " << spin;
         EXPECT_EQ(result.faces_b & contact.faces_b, contact.faces_b) << "spin " << spin;

@@ -256,7 +256,7 @@ TEST_F(ExportCommandTest, ImpossibleExportsAreRejected) {
   expect_refused(run(names_[0], "xyz", "a.obj"), 2, "a.obj: this name is reserved");
   std::filesystem::remove(path_file(names_[0]));
   before_ = files_below(directory_.path());
-  expect_refused(run(names_[0], "gsd", "a.gsd", true), 2, "\"keep_path\": true");
+  expect_refused(run(names_[0], "gsd", "a.gsd", true), 65, "\"keep_path\": true");
 }
 
 TEST_F(ExportCommandTest, DamagedFilesAreRejected) {
