@@ -98,6 +98,26 @@ Eigen::MatrixXd orientation_harmonics(const Packing& packing, unsigned l) {
 
 double orientation_order(const Eigen::MatrixXd& harmonics) { return harmonics.rowwise().mean().norm(); }
 
+std::optional<double> local_orientation_order(std::span<const Contact> contacts, const Eigen::MatrixXd& harmonics) {
+  if (contacts.empty()) return std::nullopt;
+  double sum = 0;
+  for (const Contact& contact : contacts) sum += harmonics.col(contact.pair.a).dot(harmonics.col(contact.pair.b));
+  return sum / static_cast<double>(contacts.size());
+}
+
+OrderLimits order_limits(unsigned rank) {
+  if (rank == 4) return {0.6, 0.6};
+  return {0.5, 0.5};
+}
+
+bool is_aligned(const Order& order) {
+  const OrderLimits limits = order_limits(order.rank);
+  // In packings of fewer than 49 particles, S of disordered packings can exceed 0.5.
+  constexpr double deviations = 3.5;
+  return (order.S && *order.S > std::max(limits.S, deviations * order.random_S)) ||
+         (order.local_S && *order.local_S > limits.local_S);
+}
+
 std::vector<std::optional<double>> local_steinhardt_order(std::span<const Contact> contacts, int particles,
                                                           unsigned l) {
   std::vector<std::vector<Vector3d>> bonds(particles);
@@ -122,7 +142,11 @@ Order order_of(const Packing& packing, std::span<const Contact> contacts) {
   order.local_Q6 = mean_of(local_steinhardt_order(contacts, packing.size(), 6));
   if (packing.solids.has_one_shape()) {
     order.rank = orientation_rank(packing.solids.unit(0));
-    order.S = orientation_order(orientation_harmonics(packing, order.rank));
+    const Eigen::MatrixXd harmonics = orientation_harmonics(packing, order.rank);
+    order.S = orientation_order(harmonics);
+    order.local_S = local_orientation_order(contacts, harmonics);
+    if (order.local_S)
+      order.random_local_S = 1 / std::sqrt((2.0 * order.rank + 1) * static_cast<double>(contacts.size()));
   }
   order.random_S = 1 / std::sqrt(static_cast<double>(packing.size()));
   return order;

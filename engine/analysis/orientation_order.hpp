@@ -28,6 +28,11 @@ Eigen::MatrixXd orientation_harmonics(const Packing& packing, unsigned l);
 /// Σ_ij q_ij. S_l is 1 if all particles are aligned, and about 1/√N if their orientations are independent.
 double orientation_order(const Eigen::MatrixXd& harmonics);
 
+/// Local orientational order: the mean q_ij of the pairs of touching particles; nullopt without contacts. It is 1 in a
+/// crystal of aligned particles, and almost 1 in a packing of several large crystallites, whose S_l is small. For
+/// independent orientations, q_ij has the mean 0 and the variance 1/(2l + 1).
+std::optional<double> local_orientation_order(std::span<const Contact> contacts, const Eigen::MatrixXd& harmonics);
+
 /// Steinhardt's Q_l of each particle, computed from the contacts of this particle only; nullopt if it has no contacts.
 std::vector<std::optional<double>> local_steinhardt_order(std::span<const Contact> contacts, int particles, unsigned l);
 
@@ -41,10 +46,22 @@ struct Order {
   double Q4 = 0, Q6 = 0;  ///< Steinhardt's Q4 and Q6 of all contacts; 0 without contacts
   /// means of the local Q4 and Q6 of all particles with contacts; nullopt without contacts
   std::optional<double> local_Q4, local_Q6;
-  unsigned rank = 0;        ///< rank l of S, see orientation_rank(); 0 if particles have several shapes
-  std::optional<double> S;  ///< orientational order S_l; nullopt if the rank is 0
-  double random_S = 0;      ///< 1/√N, the order of magnitude of S for independent orientations
+  unsigned rank = 0;              ///< rank l of S, see orientation_rank(); 0 if particles have several shapes
+  std::optional<double> S;        ///< orientational order S_l; nullopt if the rank is 0
+  double random_S = 0;            ///< 1/√N, the order of magnitude of S for independent orientations
+  std::optional<double> local_S;  ///< local orientational order; nullopt if the rank is 0 or without contacts
+  /// 1/√((2l + 1)n) with n contacts, the order of magnitude of local_S for independent orientations; 0 without local_S
+  double random_local_S = 0;
 };
+
+/// Values of S and local_S above which a packing is called crystalline. They depend on the rank l, that is, on the
+/// symmetry of the solid, see docs/theory.md for the packings from which they were calibrated.
+struct OrderLimits {
+  double S = 0, local_S = 0;
+};
+OrderLimits order_limits(unsigned rank);
+/// True if S or local_S is above its limit.
+bool is_aligned(const Order& order);
 /// Computes the order of a packing from all its contacts (PackingEnergy::contacts()).
 Order order_of(const Packing& packing, std::span<const Contact> contacts);
 

@@ -32,6 +32,7 @@ void settle(JamResult& result, const JamOptions& options, std::stop_token stop) 
   search.modes.lowest = 4;  // one mode is used; the others improve the convergence of the Lanczos method
   bool changed = false;
   for (std::size_t k = 0; k < result.states.size() && !stop.stop_requested(); ++k) {
+    if (result.states[k].size() == 0) continue;
     JamStep& step = result.path[static_cast<std::size_t>(result.state_steps[k])];
     // In a decompression under pressure control, the first state still has a given density.
     search.minimise.control = options.decompression.control == Control::pressure && k > 0

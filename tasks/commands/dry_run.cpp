@@ -39,18 +39,19 @@ ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& 
     throw InputError({directory + "/records/" + survey.others.front() + ".json", "/provenance/manifest_digest",
                       std::string(other_manifest), "", "", std::string(choose_another_directory)});
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
-  double least = 0, most = 0, disk = 0, largest = 0;
+  double least = 0, most = 0, disk = 0, disk_with_paths = 0, largest = 0;
   std::string text = fmt::format("{}: {}, seed {}, results in {}\n", manifest.name,
                                  counted(plan.points(), "sweep point"), manifest.seed, directory);
   for (std::size_t point = 0; point < plan.points(); ++point) {
     const auto spec = plan.at(point, 0);
     const auto cost = estimated_cost(spec, manifest.keep_path);
-    const double each = cost.cpu_seconds * survey.calibration;
+    const double each = cost.cpu_seconds * survey.points[point].calibration;
     const int recorded = survey.points[point].recorded;
     const int at_least = std::max(0, manifest.replicates.min - recorded);
     const int at_most = std::max(0, manifest.replicates.max - recorded);
     least += at_least * each, most += at_most * each;
     disk += at_most * cost.disk_bytes;
+    disk_with_paths += at_most * estimated_cost(spec, true).disk_bytes;
     largest = std::max(largest, cost.memory_bytes);
     const auto replicates = manifest.replicates.goal
                                 ? fmt::format("{} to {} replicates", manifest.replicates.min, manifest.replicates.max)
@@ -67,14 +68,16 @@ ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& 
         counted(static_cast<std::size_t>(survey.lacking), "record"), directory);
   const int shards = arguments.shard.count;
   const double share = 1.0 / threads / shards;
-  text += fmt::format("remaining: {} on {}{}; at most {} on disk, about {} of memory per replicate\n",
+  const auto with_paths =
+      manifest.keep_path ? "" : fmt::format(" ({} with \"keep_path\": true)", bytes_text(disk_with_paths));
+  text += fmt::format("remaining: {} on {}{}; at most {} on disk{}, about {} of memory per replicate\n",
                       left_text(least * share, most * share), counted(static_cast<std::size_t>(threads), "thread"),
-                      shards > 1 ? fmt::format(" for each of {} shards", shards) : "", bytes_text(disk),
+                      shards > 1 ? fmt::format(" for each of {} shards", shards) : "", bytes_text(disk), with_paths,
                       bytes_text(largest));
   text += survey.calibration_records > 0
               ? fmt::format("(times estimated from {} of this directory)\n",
                             counted(static_cast<std::size_t>(survey.calibration_records), "record"))
-              : "(times estimated from another machine, right within about a factor of two)\n";
+              : "(times estimated from another machine; right within a factor of 1.5 for most studies)\n";
   print(text + definitions_text(manifest));
   return ExitCode::done;
 }

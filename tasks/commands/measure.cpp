@@ -13,7 +13,6 @@
 #include "tasks/io/memory.hpp"
 #include "tasks/io/place.hpp"
 #include "tasks/io/standard_streams.hpp"
-#include "tasks/records/texts.hpp"
 #include "tasks/run/graph.hpp"
 #include "tasks/tables/table_of.hpp"
 #include "tasks/tables/tables.hpp"
@@ -48,7 +47,7 @@ void require_possible(const std::vector<Additions::Impossible>& impossible, cons
   const auto& [name, why] = impossible.front();
   const auto others = impossible.size() == 1 ? "" : fmt::format(" and {} more", impossible.size() - 1);
   throw InputError({directory, "", fmt::format("cannot add measures to {}{}: {}", name, others, why), "", "",
-                    std::string(how_to_keep_states)});
+                    fmt::format("remove records/{}.json, run the manifest again, and repeat this command", name)});
 }
 
 /// Removes all replicates except `name`.
@@ -56,7 +55,17 @@ void select_replicate(Additions& additions, const std::string& name) {
   const auto is_other = [&](const ReplicateSpec& spec) { return replicate_name(spec) != name; };
   std::erase_if(additions.measured, is_other);
   std::erase_if(additions.failed, is_other);
+  std::erase_if(additions.nearest_only, [&](const auto& each) { return each != name; });
   std::erase_if(additions.impossible, [&](const auto& each) { return each.name != name; });
+}
+
+void say_nearest_only(const Additions& additions, Console& console) {
+  const auto count = additions.nearest_only.size();
+  if (count == 0) return;
+  console.info(
+      fmt::format("{} of {} without the states of the decompression (\"keep_path\": true saves them): measures "
+                  "only the nearest state",
+                  count, counted(additions.measured.size(), "record")));
 }
 
 /// Writes the tables of all records in the directory, and prints the first one and those of the added measures.
@@ -86,6 +95,7 @@ ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   if (!arguments.only.empty()) select_replicate(found, arguments.only);
   for (const auto& [name, why] : found.impossible)
     console.warn(fmt::format("{}: {}; \"isojam run\" recomputes this replicate", name, why));
+  say_nearest_only(found, console);
   warn_about_kernels(console);
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   console.info(fmt::format("{}: adding measures to {}", manifest.name,

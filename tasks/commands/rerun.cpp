@@ -22,16 +22,22 @@ struct RerunArguments {
   std::string directory;
   std::string replicate;  ///< name of the replicate: its file in records/ without .json
   int threads = 0;
+  bool json = false;  ///< print the new record
 };
 
-void compare(const std::optional<RecordSummary>& before, const RecordSummary& now, Console& console) {
-  if (!before) {
-    console.info("there was no valid record to compare the result with");
-  } else if (before->result_digest == now.result_digest) {
-    console.info("the result has the same bits as the record");
+/// Prints whether the result has changed: on standard output, unless it contains the record.
+void print_verdict(const std::string& name, const std::optional<RecordSummary>& before, const RecordSummary& now,
+                   bool json, Console& console) {
+  const bool same = before && before->result_digest == now.result_digest;
+  const auto* verdict = !before ? "there was no valid record to compare the result with"
+                        : same  ? "the result has the same bits as the record"
+                                : "the result differs from the record";
+  if (json) {
+    console.info(verdict);
   } else {
-    console.warn("the result differs from the record; another build computed the record, or the machine is faulty");
+    print(fmt::format("{}: {}\n", name, verdict));
   }
+  if (before && !same) console.warn("another build computed the record, or the machine is faulty");
 }
 
 ExitCode redo(const RerunArguments& arguments, const Store& store, const ReplicateSpec& spec, Console& console) {
@@ -61,13 +67,13 @@ ExitCode redo(const RerunArguments& arguments, const Store& store, const Replica
     throw FileError(
         store.record_path(spec).string() + ": another process removed or changed this file; repeat the command",
         FileError::Reason::resource_failure);
-  compare(before, *now, console);
-  print(read_file(store.record_path(spec)));
+  print_verdict(arguments.replicate, before, *now, arguments.json, console);
+  if (arguments.json) print(read_file(store.record_path(spec)));
   return failed ? ExitCode::some_failed : ExitCode::done;
 }
 
 /// Recomputes a replicate from the start, replaces its record, and reports whether the result has the same bits as the
-/// old record. Prints the new record on standard output.
+/// old record.
 ExitCode rerun(const RerunArguments& arguments, Console& console) {
   // Report a wrong directory before it is locked.
   own_manifest(arguments.directory);
@@ -95,6 +101,7 @@ void add_rerun(CLI::App& app, Session& session) {
   options.results_directory(arguments->directory);
   options.text("replicate", arguments->replicate, "Replicate: name of its file in records/, without .json", "REPLICATE",
                Options::Need::required);
+  options.flag("--json", arguments->json, "Print the new record on stdout, and the verdict on stderr");
   options.threads(arguments->threads);
 }
 

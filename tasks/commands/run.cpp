@@ -155,7 +155,9 @@ ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard
 /// If measures were added to the manifest of the directory, new replicates get these measures too.
 void adopt_added_measures(const std::string& directory, Manifest& manifest, Console& console) {
   const auto kept = stored_manifest(directory);
-  if (!kept || kept->measures == manifest.measures || !is_same_sweep(manifest, *kept)) return;
+  if (!kept || kept->measures == manifest.measures ||
+      !(contains_sweep(manifest, *kept) || contains_sweep(*kept, manifest)))
+    return;
   if (with_measures(manifest, kept->measures).measures != kept->measures) return;
   manifest.measures = kept->measures;
   console.info(fmt::format("{}: new replicates have the measures that were added to this directory", directory));

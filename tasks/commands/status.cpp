@@ -57,7 +57,7 @@ Totals totals_of(const Survey& survey, const Plan& plan) {
     totals.failed += counts.failed;
     totals.flagged += counts.flagged;
     totals.cpu_left += replicates_left(counts, plan.manifest()) * estimated_cost(plan.at(point, 0), false).cpu_seconds *
-                       survey.calibration;
+                       counts.calibration;
   }
   for (const auto& replicate : survey.under_way) totals.cpu_left -= replicate.cpu_seconds;
   totals.cpu_left = std::max(0.0, totals.cpu_left);

@@ -9,26 +9,85 @@
 namespace isojam {
 namespace {
 
-/// CPU seconds of a replicate: at_100 (N/100)^power.
-struct CpuLaw {
-  double at_100, power;
+/// CPU seconds of a replicate with N = 100 and the default protocol: of compression, and of decompression to Δφ = 0.01.
+/// The latter is proportional to Δφ^−power. Fitted to the studies of examples/paper and examples/rigidity, see
+/// docs/accuracy.md.
+struct JamLaw {
+  double compression, decompression, power;
 };
-constexpr std::array<CpuLaw, all_solids.size()> cpu_laws{{{11, 2}, {3.5, 2}, {3.5, 2}, {3, 2}, {3.2, 2}}};
+constexpr std::array<JamLaw, all_solids.size()> jam_laws{{{6.2, 1.6, 0.8},    // tetrahedron
+                                                          {3.6, 1.8, 0.55},   // cube
+                                                          {2.5, 1.4, 0.58},   // octahedron
+                                                          {2.5, 1.15, 0.53},  // dodecahedron
+                                                          {2.1, 1.2, 0.5}}};  // icosahedron
+/// The values of the parameters in these studies.
+constexpr double law_distance = 0.01, law_fraction = 0.3, law_step = 0.02, law_evaluations = 2000, law_particles = 100;
+/// Powers of N, and of the number of evaluations for a state of the compression.
+constexpr double size_power = 1.55, evaluations_power = 0.6;
+/// Factors of the compression if the target applies before relaxation, and of both stages if the cell shape relaxes.
+constexpr double gentle = 0.65, free_cell = 1.5;
 
-/// The law of a solid. All other solids are estimated like cubes; solids that resemble tetrahedra take longer than
-/// this.
-const CpuLaw& law_of(const Mixture& solid) {
+/// Δφ of the first state of a decompression.
+constexpr double first_distance = 0.13;
+
+/// The law of a solid. All other solids are estimated like cubes.
+const JamLaw& law_of(const Mixture& solid) {
   const auto kind = from_string<SolidKind>(to_string(solid)).value_or(SolidKind::cube);
-  return cpu_laws[static_cast<std::size_t>(kind)];
+  return jam_laws[static_cast<std::size_t>(kind)];
 }
 
-/// Share of the compression in the CPU time of a replicate, measured with this strain step.
-constexpr double consolidation_share = 0.4, measured_step = 0.02;
+double steps_to(double distance, double fraction) {
+  return nearest::log(std::max(first_distance / distance, 2.0)) / -nearest::log(1 - std::min(fraction, 0.9));
+}
 
-/// Number of states of a decompression, and number of all strain steps of a replicate.
-constexpr double states = 9, steps_of_path = 50;
-/// Bytes of a particle in a packing, of a step and of a state in a record, and of the rest of a record.
-constexpr double packing_text = 335, step_text = 400, state_text = 1500, record_text = 4000;
+double jam_seconds(const ReplicateSpec& spec) {
+  const auto& [compression, decompression, power] = law_of(spec.solid);
+  const auto& first = spec.options.compression;
+  const auto& second = spec.options.decompression;
+  const double evaluations = std::min<double>(first.evaluations, first.relaxation == Consolidation::hasty ? 50 : 1e9);
+  double up = compression * law_step / first.step;
+  up *= nearest::pow(std::min(evaluations, 4 * law_evaluations) / law_evaluations, evaluations_power);
+  if (first.target_before_relaxation) up *= gentle;
+  if (spec.start && spec.start->stage == JamStage::expansion) up = 0;
+  const double down = decompression * nearest::pow(law_distance / second.final_distance, power) *
+                      nearest::log(1 - law_fraction) / nearest::log(1 - std::min(second.step_fraction, 0.9));
+  return (up + down) * (spec.options.cell == CellShape::free ? free_cell : 1);
+}
+
+/// CPU seconds of a measure for one state with N = 100, and its power of N.
+struct MeasureLaw {
+  Measure what;
+  double at_100, power;
+};
+constexpr std::array measure_laws{
+    MeasureLaw{Measure::contacts, 0.006, 1},        MeasureLaw{Measure::order, 0.002, 1.6},
+    MeasureLaw{Measure::clusters, 0.005, 1.1},      MeasureLaw{Measure::modes, 0.035, 1.75},
+    MeasureLaw{Measure::moduli, 0.05, 2},           MeasureLaw{Measure::strict, 0.05, 2},
+    MeasureLaw{Measure::rigidity, 0.03, 2},         MeasureLaw{Measure::backbone, 0.09, 3},
+    MeasureLaw{Measure::difference_modes, 0.45, 3}, MeasureLaw{Measure::prestress, 0.125, 1.6},
+    MeasureLaw{Measure::gaps, 0.065, 1.1},
+};
+/// CPU seconds of a load step of the shear with N = 100.
+constexpr double shear_step = 0.1;
+
+double measure_seconds(const ReplicateSpec& spec, double states) {
+  const double size = spec.particles / law_particles;
+  double seconds = 0;
+  for (const auto what : spec.measures) {
+    for (const auto& law : measure_laws) {
+      if (law.what == what) seconds += states * law.at_100 * nearest::pow(size, law.power);
+    }
+    if (what != Measure::shear) continue;
+    const auto& shear = spec.measuring.shear;
+    seconds += shear.until / shear.step * (shear.back ? 2 : 1) * shear_step * nearest::pow(size, size_power);
+  }
+  return seconds;
+}
+
+/// Number of strain steps of a compression.
+constexpr double steps_of_compression = 42;
+/// Bytes of a particle in a packing, of a particle, a step and a state in a record, and of the rest of a record.
+constexpr double packing_text = 340, particle_text = 600, step_text = 400, state_text = 1500, record_text = 4000;
 
 /// Bytes of memory for each particle, without the factorisation: packings of the decompression (the stages copy them),
 /// overlaps and Hessians, and contacts with their forces.
@@ -40,14 +99,16 @@ constexpr double factor_bytes = 1.3e3, factor_power = 1.6;
 }  // namespace
 
 Cost estimated_cost(const ReplicateSpec& spec, bool keep_path) {
-  const auto& law = law_of(spec.solid);
   const double n = spec.particles;
-  const double consolidation = consolidation_share * measured_step / spec.options.compression.step;
+  const double states =
+      1 + steps_to(spec.options.decompression.final_distance, spec.options.decompression.step_fraction);
   Cost cost;
-  cost.cpu_seconds = law.at_100 * nearest::pow(n / 100, law.power) * (1 - consolidation_share + consolidation);
+  cost.cpu_seconds = jam_seconds(spec) * nearest::pow(n / law_particles, size_power) + measure_seconds(spec, states);
   cost.memory_bytes = particle_bytes * n + factor_bytes * nearest::pow(n, factor_power);
+  const double steps = states + steps_of_compression * law_step / spec.options.compression.step;
   const double packings = keep_path ? 1 + states : 1;
-  cost.disk_bytes = record_text + step_text * steps_of_path + state_text * states + packings * packing_text * n;
+  cost.disk_bytes =
+      record_text + step_text * steps + state_text * states + (particle_text + packings * packing_text) * n;
   return cost;
 }
 

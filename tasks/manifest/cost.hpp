@@ -13,11 +13,10 @@ struct Cost {
   double disk_bytes = 0;    ///< size of the record, of the packing, and of the path if it is kept
 };
 
-/// Estimates the cost of a replicate. The CPU time is a power of N, fitted for each named solid to replicates with the
-/// default protocol at N = 100 and 400, on two virtual cores of an AMD EPYC. Other solids and mixtures are treated as
-/// cubes. The time of compression is inversely proportional to consolidation_step. The CPU time is accurate to a factor
-/// of about two. On another machine or with another protocol, all CPU times change by about the same factor;
-/// Survey::calibration is this factor.
+/// Estimates the cost of a replicate. The CPU time is the sum of compression, decompression and measures. Each is a
+/// power of N and of the parameters that change it most, see cost.cpp. Solids without constants of their own and
+/// mixtures are treated as cubes. On another machine or with another protocol, all CPU times of a sweep point change by
+/// about the same factor, which survey_of() finds from the records.
 Cost estimated_cost(const ReplicateSpec& spec, bool keep_path);
 
 /// Number of replicates that may be in memory at the same time, if each needs at most `largest` bytes and `available`

@@ -15,6 +15,7 @@
 #include "tasks/io/parse.hpp"
 #include "tasks/io/sealed.hpp"
 #include "tasks/manifest/base.hpp"
+#include "tasks/manifest/by_solid.hpp"
 #include "tasks/manifest/fields.hpp"
 #include "tasks/manifest/particles.hpp"
 #include "tasks/manifest/shear_settings.hpp"
@@ -164,6 +165,7 @@ void read_group(const JsonPlace& root, const JsonPlace& place, Group group, Mani
   for (const auto& field : all_fields()) {
     if (field.group == group) names.push_back(field.name);
   }
+  if (group == Group::protocol) names.emplace_back("by_solid");
   refuse_renamed(place);
   place.expect_keys(names, home_of_field);
   for (const auto& field : all_fields()) {
@@ -213,9 +215,17 @@ void check_goal(const JsonPlace& root, const Manifest& manifest) {
   }
 }
 
-void check_densities(const JsonPlace& root, const std::vector<OptionSet>& sets) {
+void check_densities(const JsonPlace& root, const Manifest& manifest, const std::vector<OptionSet>& sets) {
+  std::vector<JamOptions> all;
   for (const auto& set : sets) {
-    const auto& options = set.options;
+    all.push_back(set.options);
+    for (const auto& [solid, values] : manifest.by_solid) {
+      for (const auto& mixture : manifest.solids) {
+        if (to_string(mixture) == solid) all.push_back(options_of(manifest, set, mixture));
+      }
+    }
+  }
+  for (const auto& options : all) {
     if (options.compression.initial_density >= options.compression.max_density) {
       place_of_field(root, "protocol", "initial_density")
           .refuse_with_remedy(fmt::format("initial_density {} is not below max_density {}",
@@ -232,7 +242,7 @@ void check_together(const JsonPlace& root, const Manifest& manifest) {
   // If there are too many combinations, do not make them.
   if (!root.attempt([&] { check_count(root, manifest); })) return;
   const auto sets = option_sets(manifest);
-  root.attempt([&] { check_densities(root, sets); });
+  root.attempt([&] { check_densities(root, manifest, sets); });
   check_particles(root, manifest, sets);
 }
 
@@ -250,6 +260,7 @@ void read_values(const JsonPlace& root, Manifest& manifest) {
     root.read_if_any(std::string(to_string(group)),
                      [&](const JsonPlace& place) { read_group(root, place, group, manifest); });
   }
+  read_by_solid(root, manifest);
   manifest.measures = default_measures();
   root.read_if_any("measure", [&](const JsonPlace& place) {
     manifest.measures = read_list(place, fmt::format("a list, each entry {}", one_of(all_names<Measure>)),
@@ -291,26 +302,6 @@ Json values_of(const std::vector<Measure>& list) {
   return values;
 }
 
-}  // namespace
-
-std::vector<OptionSet> option_sets(const Manifest& manifest) {
-  std::vector<OptionSet> sets{{Json::object(), manifest.protocol}};
-  for (const auto& swept : manifest.swept) {
-    std::vector<OptionSet> longer;
-    for (const auto& set : sets) {
-      for (const auto& value : swept.values) {
-        longer.push_back(set);
-        longer.back().parameters[swept.name] = value;
-        read_field({value, manifest.name}, *find_field(swept.name), longer.back().options);
-      }
-    }
-    sets = std::move(longer);
-  }
-  return sets;
-}
-
-namespace {
-
 /// Reads the files of /start if `with_start` is true, or if the manifest does not state their digests.
 Manifest parse(std::string_view text, const std::string& file, bool with_start) {
   const auto document = parse_json(text, file);
@@ -347,6 +338,7 @@ Json to_json(const Manifest& manifest) {
   for (const auto group : {Group::protocol, Group::minimiser}) {
     auto values = group_values(group, manifest.protocol);
     for (const auto& swept : manifest.swept) values.erase(swept.name);
+    if (group == Group::protocol && !manifest.by_solid.empty()) values["by_solid"] = manifest.by_solid;
     json[std::string(to_string(group))] = std::move(values);
   }
   json["measure"] = values_of(manifest.measures);
@@ -386,8 +378,6 @@ std::string digest_without_measures(const Manifest& manifest) {
   bare.measures.clear();
   return digest(bare);
 }
-
-bool is_same_sweep(const Manifest& a, const Manifest& b) { return is_of_sweep(a, b.measures, digest(b)); }
 
 bool is_of_sweep(const Manifest& manifest, const std::vector<Measure>& measures, const std::string& digest_of_record) {
   Manifest as_recorded = manifest;

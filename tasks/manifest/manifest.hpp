@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,6 +50,8 @@ struct Manifest {
   std::vector<SweptField> swept;  ///< swept parameters, sorted by name
   Replicates replicates;
   JamOptions protocol;  ///< options of the protocol and of the minimiser
+  /// for names of solids in `solids`: the parameters of the protocol that have other values for this solid
+  std::map<std::string, Json, std::less<>> by_solid{};
   std::vector<Measure> measures;
   MeasureOptions measuring;
   /// true: paths are kept, with the packings of all states of a decompression; false: only the nearest state is kept
@@ -70,6 +74,9 @@ struct OptionSet {
 /// All combinations of the values of the swept parameters. If no parameter is swept, there is one combination, whose
 /// `parameters` are empty.
 std::vector<OptionSet> option_sets(const Manifest& manifest);
+
+/// The options in `set`, with the values that the manifest has only for this solid.
+JamOptions options_of(const Manifest& manifest, const OptionSet& set, const Mixture& solid);
 
 /// Parses a manifest and checks it in stages: first the JSON syntax and the checksum, then each value, then
 /// combinations of values, and last the files of /start without digests. Throws one InputError with all errors of the
@@ -94,8 +101,9 @@ std::string digest(const Manifest& manifest);
 Manifest with_measures(Manifest manifest, const std::vector<Measure>& more);
 /// The value of digest() for the manifest without any measure.
 std::string digest_without_measures(const Manifest& manifest);
-/// True if the identity() of two manifests differs at most in the measures.
-bool is_same_sweep(const Manifest& a, const Manifest& b);
+/// True if the sweep of `whole` has all values of the sweep of `part`, and everything else in their identity() is
+/// equal. Measures and parameters of single solids (/protocol/by_solid) are not compared.
+bool contains_sweep(const Manifest& whole, const Manifest& part);
 /// True if `digest_of_record` is the value of digest() for this manifest with `measures` instead of its own measures.
 bool is_of_sweep(const Manifest& manifest, const std::vector<Measure>& measures, const std::string& digest_of_record);
 

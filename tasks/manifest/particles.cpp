@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/arithmetic/elementary.hpp"
 #include "engine/packing/cell/periodic_cell.hpp"
@@ -50,22 +51,29 @@ void check_kinds(const JsonPlace& root, const Manifest& manifest) {
 
 void check_particles(const JsonPlace& root, const Manifest& manifest, const std::vector<OptionSet>& sets) {
   check_kinds(root, manifest);
-  double density = 0, start = 0;
-  for (const auto& set : sets) {
-    density = std::max(density, set.options.compression.max_density);
-    start = std::max(start, set.options.compression.initial_density);
-  }
-  const auto needs = [&](const Mixture& mixture) { return least_particles(mixture, density); };
-  const auto neediest = *std::max_element(manifest.solids.begin(), manifest.solids.end(),
-                                          [&](const Mixture& a, const Mixture& b) { return needs(a) < needs(b); });
+  // The largest max_density and initial_density of a solid.
+  const auto densities = [&](const Mixture& mixture) {
+    std::pair<double, double> largest{0, 0};
+    for (const auto& set : sets) {
+      const auto options = options_of(manifest, set, mixture);
+      largest.first = std::max(largest.first, options.compression.max_density);
+      largest.second = std::max(largest.second, options.compression.initial_density);
+    }
+    return largest;
+  };
+  std::vector<int> needed;
+  for (const auto& mixture : manifest.solids) needed.push_back(least_particles(mixture, densities(mixture).first));
+  const auto most = std::max_element(needed.begin(), needed.end());
+  const auto& neediest = manifest.solids[static_cast<std::size_t>(most - needed.begin())];
+  const auto [density, start] = densities(neediest);
   for (const int particles : manifest.particles) {
-    if (particles >= needs(neediest)) continue;
+    if (particles >= *most) continue;
     const double allowed = densest(neediest, particles);
-    root.attempt([&] {
+    root.attempt([&, density = density, start = start] {
       place_of_particles(root, particles)
           .refuse_with_remedy(
               fmt::format("{} is too small for {} at max_density {}", particles, to_string(neediest), density),
-              fmt::format("use at least {} particles{}", needs(neediest),
+              fmt::format("use at least {} particles{}", *most,
                           allowed > start ? fmt::format(" or set max_density to {} or less", allowed) : ""));
     });
   }

@@ -62,7 +62,7 @@ ReplicateSpec Plan::at(std::size_t point, int replicate) const {
           manifest_.seed,
           digest_,
           sweep_digest_,
-          set.options,
+          options_of(manifest_, set, manifest_.solids[size / manifest_.particles.size()]),
           manifest_.measures,
           manifest_.measuring,
           manifest_.start};

@@ -65,21 +65,22 @@ void load_file(const JsonPlace& place, StartFile& file, const Manifest& manifest
 void check_density(const JsonPlace& place, const Start& start, const Packing& packing, const Manifest& manifest) {
   const double density = start.density.value_or(packing.density());
   for (const auto& set : option_sets(manifest)) {
-    const double least = least_steps * set.options.compression.step;
+    const auto options = options_of(manifest, set, manifest.solids.front());
+    const double least = least_steps * options.compression.step;
     if (density < least)
       place.refuse_with_remedy(
           fmt::format("the initial density {:.3g} is below {}, half of the first strain step: this step would move "
                       "particles into each other that are far apart",
                       density, least),
           fmt::format("set /start/density to {:.2g} or more, or use a smaller cell", std::max(0.05, least)));
-    if (density < set.options.compression.max_density) continue;
-    place.refuse_with_remedy(fmt::format("the initial density {:.6g} is not below max_density {}", density,
-                                         set.options.compression.max_density),
-                             "increase max_density, or set a lower /start/density");
+    if (density < options.compression.max_density) continue;
+    place.refuse_with_remedy(
+        fmt::format("the initial density {:.6g} is not below max_density {}", density, options.compression.max_density),
+        "increase max_density, or set a lower /start/density");
   }
   if (packing.cell.is_cube()) return;
   for (const auto& set : option_sets(manifest)) {
-    if (set.options.cell == CellShape::free) continue;
+    if (options_of(manifest, set, manifest.solids.front()).cell == CellShape::free) continue;
     place.refuse_with_remedy("the cell of the packing is not a cube", "set /protocol/cell to \"free\"");
   }
 }

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <set>
 #include <utility>
 
 #include "engine/analysis/orientation_order.hpp"
 #include "engine/arithmetic/elementary.hpp"
 #include "tasks/manifest/fields.hpp"
+#include "tasks/manifest/shear_settings.hpp"
 
 namespace isojam {
 namespace {
@@ -197,17 +199,81 @@ void look_at_goal(const Replicates& replicates, Warnings& warnings) {
                               replicates.min, reliable_min));
 }
 
+bool requests(const Manifest& manifest, std::initializer_list<Measure> any) {
+  const auto& measures = manifest.measures;
+  return std::find_first_of(measures.begin(), measures.end(), any.begin(), any.end()) != measures.end();
+}
+
+/// Warns of keys whose values nothing uses.
+void look_at_effects(const Manifest& manifest, Warnings& warnings) {
+  const MeasureOptions usual;
+  if (shear_json(manifest.measuring.shear) != shear_json(usual.shear) && !requests(manifest, {Measure::shear}))
+    warnings.add_at("/shear", "has no effect without the measure; add \"shear\" to /measure");
+  if (manifest.measuring.modes != usual.modes &&
+      !requests(manifest, {Measure::modes, Measure::backbone, Measure::prestress}))
+    warnings.add_at("/modes", "has no effect without a measure of modes; add \"modes\" to /measure");
+  for (const auto flag : manifest.exclude) {
+    const auto usually = usually_excluded();
+    if (std::find(usually.begin(), usually.end(), flag) != usually.end()) continue;
+    const auto sets = [&](Measure what) {
+      const auto& flags = definition_of(what).flags;
+      return std::find(flags.begin(), flags.end(), flag) != flags.end();
+    };
+    if (std::none_of(all_measures.begin(), all_measures.end(), sets) ||
+        std::any_of(manifest.measures.begin(), manifest.measures.end(), sets))
+      continue;
+    const auto what = *std::find_if(all_measures.begin(), all_measures.end(), sets);
+    warnings.add_at("/exclude", fmt::format("\"{}\" has no effect, because no measure of this manifest sets this flag; "
+                                            "add \"{}\" to /measure",
+                                            to_string(flag), to_string(what)));
+  }
+  for (const auto& [name, definition] : manifest.definitions) {
+    const auto uses = [&](const Mixture& mixture) {
+      const auto& kinds = mixture.kinds();
+      return std::any_of(kinds.begin(), kinds.end(), [&](const auto& kind) { return to_string(kind.solid) == name; });
+    };
+    if (std::none_of(manifest.solids.begin(), manifest.solids.end(), uses))
+      warnings.add_at("/solids/" + name, "has no effect; add the name to /sweep/solid");
+  }
+}
+
+/// Warns of parameters that a later stage or another parameter makes ineffective.
+void look_at_unused(const Manifest& manifest, const JamOptions& options, Warnings& warnings) {
+  const JamOptions usual;
+  constexpr int hasty = 50;
+  if (options.compression.relaxation == Consolidation::hasty && options.compression.evaluations > hasty &&
+      options.compression.evaluations != usual.compression.evaluations) {
+    warnings.add(
+        "consolidation_evaluations", "",
+        fmt::format("{} has no effect: hasty compression uses at most {}", options.compression.evaluations, hasty));
+  }
+  if (!manifest.start) return;
+  for (const auto& field : all_fields()) {
+    const bool is_initial = field.name == "initial_density";
+    const bool of_compression = field.name.starts_with("consolidation") || field.name.starts_with("target_");
+    if (!is_initial && !(of_compression && manifest.start->stage == JamStage::expansion)) continue;
+    if (field_value(field, options) == field_value(field, usual)) continue;
+    warnings.add(field.name, "",
+                 is_initial ? "has no effect, because /start gives the initial packings; set /start/density"
+                            : "has no effect, because /start/stage is expansion: there is no compression");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const Manifest& manifest) {
   Warnings warnings(manifest);
   look_at_goal(manifest.replicates, warnings);
+  look_at_effects(manifest, warnings);
   for (const auto& set : option_sets(manifest)) {
-    look_at_window(set.options, warnings);
     look_at_minimiser(set.options, manifest.exclude, warnings);
-    for (const auto& solid : known) {
-      if (std::find(manifest.solids.begin(), manifest.solids.end(), Mixture(solid.kind)) != manifest.solids.end())
-        look_at_solid(set.options, solid, warnings);
+    for (const auto& mixture : manifest.solids) {
+      const auto options = options_of(manifest, set, mixture);
+      look_at_window(options, warnings);
+      look_at_unused(manifest, options, warnings);
+      for (const auto& solid : known) {
+        if (mixture == Mixture(solid.kind)) look_at_solid(options, solid, warnings);
+      }
     }
   }
   for (const auto& [name, definition] : manifest.definitions)

@@ -10,7 +10,9 @@ namespace isojam {
 
 /// Warnings in the record of a replicate that did not fail.
 enum class Flag : std::uint8_t {
-  crystalline,       ///< Q6 of the nearest state, computed from all contacts, is above crystalline_q6
+  /// Q6 of the nearest state, computed from all contacts, is above crystalline_q6, or its orientational order is above
+  /// order_limits()
+  crystalline,
   not_balanced,      ///< a state that is not in equilibrium was accepted because of minimiser.energy_change
   goal_not_reached,  ///< the decompression ended farther from jamming than requested
   /// φ_J was fitted to the two nearest states, because fewer than two states are in the fit window

@@ -27,6 +27,8 @@ struct Measurement {
   /// results from several states; its members are added to the record of the replicate
   Json replicate = Json::object();
   std::vector<std::string> flags;  ///< flags of the replicate
+  /// true if only the nearest state was measured, because the other states were not saved; their objects are then empty
+  bool nearest_only = false;
 };
 
 /// Definition of a measure.
@@ -35,7 +37,7 @@ struct MeasureDefinition {
   std::span<const Quantity> quantities;
   /// function that computes the measure
   Measurement (*measure)(const JamResult& jam, const MeasureOptions& options);
-  std::span<const Flag> flags = {};  ///< flags that only this measure sets, in the order in which the record lists them
+  std::span<const Flag> flags = {};  ///< flags that this measure sets, in the order in which the record lists them
   bool by_default = false;           ///< true if the measure is computed for manifests without the key `measure`
   /// true if the measure needs minima; saddles are then relaxed along their negative modes before any measure
   bool needs_minima = false;
@@ -49,8 +51,11 @@ inline const MeasureDefinition& definition_of(Measure measure) {
 /// same time.
 Measurement measure(Measure what, const JamResult& jam, const MeasureOptions& options = {});
 
+/// Computes a measure for the nearest state alone. The other states of `jam` may have no particles.
+Measurement measure_nearest(Measure what, const JamResult& jam, const MeasureOptions& options);
+
 /// Index in jam.states of the nearest state: the state with the lowest density among the states with positive energy.
-/// nullopt if no state has positive energy.
+/// States without particles are skipped. nullopt if no state has positive energy.
 std::optional<std::size_t> nearest_state(const JamResult& jam);
 
 }  // namespace isojam

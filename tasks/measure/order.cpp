@@ -10,7 +10,8 @@ constexpr Quantity Q4{"Q4", "/order/Q4", group, "1", "Q_4"}, Q6{"Q6", "/order/Q6
 constexpr Quantity local_Q4{"local_Q4", "/order/local_Q4", group, "1", "q_4"};
 constexpr Quantity local_Q6{"local_Q6", "/order/local_Q6", group, "1", "q_6"};
 constexpr Quantity S{"S_orientation", "/order/S", group, "1", "S_o"};
-constexpr std::array quantities{Q4, Q6, local_Q4, local_Q6, S};
+constexpr Quantity local_S{"local_S_orientation", "/order/local_S", group, "1", "s_o"};
+constexpr std::array quantities{Q4, Q6, local_Q4, local_Q6, S, local_S};
 
 Json order_record(const Order& order) {
   Json state;
@@ -26,6 +27,8 @@ Json order_record(const Order& order) {
   }
   put(state, S, order.S, several);
   put_number(state["order"], "random_S", order.random_S);
+  put(state, local_S, order.local_S, order.S ? "no contacts" : several);
+  put_number(state["order"], "random_local_S", order.random_local_S);
   return state;
 }
 
@@ -51,13 +54,17 @@ Measurement measure_order(const JamResult& jam, const MeasureOptions&) {
     auto state = order_record(order);
     if (k == nearest && order.S)
       state["order"]["orientation_correlation"] = correlation_record(jam.states[k], order.rank);
+    if (k == nearest && is_aligned(order)) measurement.flags.emplace_back(to_string(Flag::crystalline));
     measurement.states.push_back(std::move(state));
   }
   return measurement;
 }
 
+constexpr std::array flags{Flag::crystalline};
+
 }  // namespace
 
-const MeasureDefinition measures::order{.quantities = quantities, .measure = measure_order, .by_default = true};
+const MeasureDefinition measures::order{
+    .quantities = quantities, .measure = measure_order, .flags = flags, .by_default = true};
 
 }  // namespace isojam

@@ -17,6 +17,10 @@ Measurement recorded_measurement(Measure what, const Json& record) {
   Measurement measurement;
   for (const auto& state : record.at("states")) measurement.states.push_back(part_of(state));
   measurement.replicate = part_of(record);
+  if (record.contains("nearest_only")) {
+    const auto& names = record.at("nearest_only");
+    measurement.nearest_only = std::find(names.begin(), names.end(), name) != names.end();
+  }
   for (const auto flag : definition_of(what).flags) {
     const auto& flags = record.at("flags");
     if (std::find(flags.begin(), flags.end(), to_string(flag)) != flags.end())

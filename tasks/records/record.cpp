@@ -156,7 +156,10 @@ Json make_record(const Outcome& outcome) {
   } else {
     put_jamming_point(json, jam);
     json["nearest"] = state_record(outcome, *nearest_state(jam));
-    for (const auto& [what, measurement] : outcome.measured) json.update(measurement.replicate);
+    for (const auto& [what, measurement] : outcome.measured) {
+      json.update(measurement.replicate);
+      if (measurement.nearest_only) json["nearest_only"].push_back(to_string(what));
+    }
     put_rearrangements(json, jam.path);
   }
   json["states"] = Json::array();

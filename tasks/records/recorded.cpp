@@ -8,6 +8,7 @@
 
 #include "tasks/io/file.hpp"
 #include "tasks/io/input_error.hpp"
+#include "tasks/io/place.hpp"
 #include "tasks/io/resource_failure.hpp"
 #include "tasks/io/sealed.hpp"
 #include "tasks/records/abridged.hpp"
@@ -42,6 +43,12 @@ std::vector<RecordIdentity> identities_of(const RecordedReplicate& replicate) {
   for (const auto& before : replicate.summary.before)
     identities.push_back({replicate.name, before.manifest_digest, before.result_digest});
   return identities;
+}
+
+bool has_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec) {
+  auto planned = spec;
+  planned.measures = replicate.summary.measures;
+  return replicate.record.at("spec") == to_json(planned);
 }
 
 /// Returns the result of `read`. A missing file is an error of the results, because a list or a record names it.
@@ -104,8 +111,17 @@ RecordedReplicate read_abridged_record(const fs::path& directory, const std::str
   return parsed_record(text, file, name);
 }
 
-bool is_of(const RecordedReplicate& replicate, const Manifest& manifest) {
-  return is_of_sweep(manifest, replicate.summary.measures, replicate.summary.manifest_digest);
+bool is_of(const RecordedReplicate& replicate, const Plan& plan) {
+  if (replicate.summary.manifest_digest == plan.manifest_digest()) return true;
+  if (is_of_sweep(plan.manifest(), replicate.summary.measures, replicate.summary.manifest_digest)) return true;
+  const auto place = plan.place_of(replicate.name);
+  return place && replicate.record.at("provenance").at("seed") == plan.manifest().seed &&
+         has_spec(replicate, plan.at(place->point, place->replicate));
+}
+
+bool is_superseded(const RecordedReplicate& replicate, const Plan& plan) {
+  return replicate.summary.failed && plan.place_of(replicate.name) &&
+         replicate.record.at("provenance").at("seed") == plan.manifest().seed && !is_of(replicate, plan);
 }
 
 std::vector<Measure> lacks(const RecordedReplicate& replicate, const Manifest& manifest) {
@@ -117,9 +133,7 @@ std::vector<Measure> lacks(const RecordedReplicate& replicate, const Manifest& m
 }
 
 void check_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec) {
-  auto planned = spec;
-  planned.measures = replicate.summary.measures;
-  if (replicate.record.at("spec") != to_json(planned))
+  if (!has_spec(replicate, spec))
     throw InputError({replicate.name, "/spec", "differs from the plan of the manifest", "", ""});
 }
 
@@ -131,6 +145,17 @@ void check_companions(const fs::path& directory, const RecordedReplicate& replic
 
 Json read_state_file_of(const fs::path& directory, const RecordedReplicate& replicate, const std::string& folder) {
   return with_state_file(directory, replicate, folder, read_state_file);
+}
+
+std::size_t index_of_nearest(const fs::path& directory, const RecordedReplicate& replicate) {
+  const JsonPlace record(replicate.record, file_in(directory, "records", replicate.name));
+  const auto states = record.at("states");
+  const auto step = record.at("nearest").at("step");
+  const auto count = states.expect_list(list_of_states);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (states.at(k).at("step").value() == step.value()) return k;
+  }
+  step.refuse("no state belongs to this step");
 }
 
 bool is_resource_failure_record(const RecordedReplicate& replicate) {

@@ -28,9 +28,12 @@ RecordedReplicate read_record(const std::filesystem::path& directory, const std:
 /// may be empty.
 RecordedReplicate read_abridged_record(const std::filesystem::path& directory, const std::string& name);
 
-/// True if the record belongs to this manifest, apart from measures. The identity() of the manifest of the record may
-/// differ only in the measures.
-bool is_of(const RecordedReplicate& replicate, const Manifest& manifest);
+/// True if the record has the result that this plan requests, apart from measures. Either the identity() of the
+/// manifest of the record differs only in the measures, or the sweep has changed since, but not the seed and the
+/// specification of this replicate.
+bool is_of(const RecordedReplicate& replicate, const Plan& plan);
+/// True if the replicate failed and the plan has other settings for it, so that it must be computed again.
+bool is_superseded(const RecordedReplicate& replicate, const Plan& plan);
 /// The measures of a manifest that the record does not have, because they were added to the manifest later.
 std::vector<Measure> lacks(const RecordedReplicate& replicate, const Manifest& manifest);
 
@@ -46,6 +49,10 @@ void check_companions(const std::filesystem::path& directory, const RecordedRepl
 /// exceptions as check_companions().
 Json read_state_file_of(const std::filesystem::path& directory, const RecordedReplicate& replicate,
                         const std::string& folder);
+
+/// Index of the nearest state in the list `states` of the record. The replicate must not have failed. Throws InputError
+/// if the list does not contain the state.
+std::size_t index_of_nearest(const std::filesystem::path& directory, const RecordedReplicate& replicate);
 
 /// True if the record states that the replicate failed because of a resource failure. Only earlier versions of isojam
 /// wrote such records.

@@ -83,8 +83,11 @@ std::vector<std::string> flags_of(const Outcome& outcome) {
   if (std::any_of(outcome.jam.state_steps.begin(), outcome.jam.state_steps.end(), by_energy))
     flags.emplace_back(to_string(Flag::not_balanced));
   if (outside_fit_window(outcome)) flags.emplace_back(to_string(Flag::outside_fit_window));
-  for (const auto& [what, measurement] : outcome.measured)
-    flags.insert(flags.end(), measurement.flags.begin(), measurement.flags.end());
+  for (const auto& [what, measurement] : outcome.measured) {
+    for (const auto& flag : measurement.flags) {
+      if (std::find(flags.begin(), flags.end(), flag) == flags.end()) flags.push_back(flag);
+    }
+  }
   return flags;
 }
 

@@ -70,6 +70,7 @@ JamResult restored_jam(const JsonPlace& record, std::vector<Packing> states, con
         fmt::format("the record has {} states, but its path has {}", result.state_steps.size(), states.size()));
   result.states = std::move(states);
   for (const auto& packing : result.states) {
+    if (packing.size() == 0) continue;
     if (packing.size() != spec.particles || !are_particles_of(packing, spec.solid))
       record.at("states").refuse("the path contains packings of other particles");
   }

@@ -30,6 +30,22 @@ std::string digests(const std::string& theirs, const std::string& ours) {
                     std::string(choose_another_directory)});
 }
 
+/// Reports that the manifest requests another result than the one that a record of its plan has.
+void refuse_changed(const fs::path& directory, const RecordedReplicate& held, const Plan& plan) {
+  const auto place = plan.place_of(held.name);
+  auto spec = to_json(plan.at(place->point, place->replicate));
+  spec["measure"] = held.record.at("spec").at("measure");
+  const auto patch = Json::diff(held.record.at("spec"), spec);
+  if (patch.empty()) return;
+  const auto pointer = patch.front().at("path").get<std::string>();
+  const Json::json_pointer at(pointer);
+  const auto shown = [&](const Json& json) { return json.contains(at) ? compact(json.at(at)) : "not given"; };
+  throw InputError({(directory / "records" / (held.name + ".json")).string(), "/spec" + pointer,
+                    fmt::format("{} in the record, {} in this manifest, and only failed replicates are computed again",
+                                shown(held.record.at("spec")), shown(spec)),
+                    "", "", fmt::format("restore the setting, or {}", choose_another_directory)});
+}
+
 /// Advice for the user if the manifest requests measures that the directory does not have.
 std::string how_to_add(const fs::path& directory, const Manifest& theirs, const Manifest& ours) {
   std::string names;
@@ -41,19 +57,38 @@ std::string how_to_add(const fs::path& directory, const Manifest& theirs, const 
                      compact(to_json(theirs).at("measure")), directory.string(), names);
 }
 
-/// Manifest of the directory; nullopt if it has none. Throws if the directory belongs to another manifest.
+/// True if both manifests have the same parameters for each single solid of `part`.
+bool has_settings_of(const Manifest& whole, const Manifest& part) {
+  const auto own = [](const Manifest& manifest, const Mixture& solid) {
+    const auto found = manifest.by_solid.find(to_string(solid));
+    return found == manifest.by_solid.end() ? Json() : found->second;
+  };
+  return std::all_of(part.solids.begin(), part.solids.end(),
+                     [&](const Mixture& solid) { return own(whole, solid) == own(part, solid); });
+}
+
+/// Manifest of the directory; nullopt if it has none. Throws if the directory belongs to another manifest. One of the
+/// two sweeps may have more values than the other.
 std::optional<Manifest> manifest_in(const fs::path& directory, const Manifest& manifest) {
   const auto path = directory / "manifest.json";
   auto theirs = stored_manifest(directory);
   if (!theirs || digest(*theirs) == digest(manifest)) return theirs;
-  if (is_same_sweep(*theirs, manifest))
+  const bool is_growth =
+      contains_sweep(manifest, *theirs) || (contains_sweep(*theirs, manifest) && has_settings_of(*theirs, manifest));
+  if (is_growth && theirs->measures == manifest.measures) return theirs;
+  if (is_growth)
     throw InputError({path.string(), "/measure", "the directory has other measures than the manifest", "", "",
                       how_to_add(directory, *theirs, manifest)});
   refuse_other(path.string(), "", differences(*theirs, manifest));
 }
 
+/// The manifest with the larger sweep. If the sweeps are the same, the new manifest.
+const Manifest& larger(const std::optional<Manifest>& before, const Manifest& manifest) {
+  return !before || contains_sweep(manifest, *before) ? manifest : *before;
+}
+
 /// Throws if a record belongs to another manifest. Checks records that are not in the plan, or all records if `all` is
-/// true because the directory has no manifest.
+/// true because the directory has no manifest, or another one.
 void check_records(const fs::path& directory, const Manifest& manifest, bool all, const Warn& warn) {
   const auto names = names_in(directory / "records");
   if (names.empty()) return;
@@ -62,17 +97,17 @@ void check_records(const fs::path& directory, const Manifest& manifest, bool all
   for (const auto& name : names) {
     const bool planned = plan.place_of(name).has_value();
     if (planned && !all) continue;
-    std::string theirs;
+    std::optional<RecordedReplicate> held;
     try {
-      const auto held = read_record(directory, name);
-      if (is_of(held, manifest)) continue;
-      theirs = held.summary.manifest_digest;
+      held = read_record(directory, name);
     } catch (const InputError& damage) {
       if (!planned)
         warn(fmt::format("{}; the file is not planned by this manifest and was left unchanged", damage.what()));
       continue;
     }
-    if (theirs != ours)
+    if (is_of(*held, plan) || is_superseded(*held, plan)) continue;
+    if (planned) refuse_changed(directory, *held, plan);
+    if (const auto& theirs = held->summary.manifest_digest; theirs != ours)
       refuse_other((directory / "records" / (name + ".json")).string(), digest_pointer, digests(theirs, ours));
   }
 }
@@ -125,6 +160,10 @@ Manifest claim(const fs::path& directory, const Manifest& manifest) {
   if (!before && write_exclusively(path, sealed(to_json(manifest)))) return manifest;
   if (!before) before = manifest_in(directory, manifest);
   auto kept = grown(manifest, before);
+  if (const auto& all = larger(before, manifest); &all != &manifest) {
+    kept = *before;
+    kept.replicates.max = std::max(kept.replicates.max, manifest.replicates.max);
+  }
   const auto text = sealed(to_json(kept));
   if (text != read_file(path)) write_atomically(path, text);
   return kept;
@@ -141,7 +180,7 @@ void throw_without_records(const fs::path& directory) {
 void check_directory(const fs::path& directory, const Manifest& manifest, const Warn& warn) {
   refuse_links(directory);
   const auto before = manifest_in(directory, manifest);
-  check_records(directory, manifest, !before, warn);
+  check_records(directory, larger(before, manifest), !before || digest(*before) != digest(manifest), warn);
 }
 
 Store::Store(fs::path directory, const Manifest& manifest, Warn warn)
@@ -152,6 +191,7 @@ Store::Store(fs::path directory, const Manifest& manifest, Warn warn)
   check_directory(directory_, manifest, warn_);
   make_own_folder(directory_);
   kept_ = claim(directory_, manifest);
+  plan_ = std::make_shared<const Plan>(kept_);
   // Another process may have written its manifest in the meantime, so check again.
   manifest_in(directory_, manifest);
   for (const auto* folder : {"records", "packings", "checkpoints"}) make_own_folder(directory_ / folder);
@@ -171,7 +211,8 @@ std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
   std::string theirs;
   try {
     auto held = read_record(directory_, replicate_name(spec));
-    if (!is_of(held, kept_)) {
+    if (!is_of(held, *plan_)) {
+      if (is_superseded(held, *plan_)) return std::nullopt;
       theirs = held.summary.manifest_digest;
     } else {
       check_spec(held, spec);
@@ -241,7 +282,9 @@ void Store::write_added(const Outcome& outcome, const RecordedReplicate& before,
   const auto digest = record.at("result_digest").get<std::string>();
   if (moved) {
     write_atomically(packing_path(outcome.spec), sealed(make_packing(outcome, digest)));
-    write_atomically(path_path(outcome.spec), sealed(make_path(outcome, digest)));
+    // Without a path, the packing of the nearest state is all that is stored.
+    if (fs::exists(path_path(outcome.spec)))
+      write_atomically(path_path(outcome.spec), sealed(make_path(outcome, digest)));
   }
   write_atomically(record_path(outcome.spec), sealed(record));
 }
@@ -287,12 +330,16 @@ void for_each_record(const fs::path& directory, const std::optional<Manifest>& m
   in_order(names.size(), read, [&](Read one) {
     if (!one.held) {
       warn(one.damage + "; the file is not planned by the manifest and is ignored");
-    } else if (manifest && one.held->summary.manifest_digest != own && !is_of(*one.held, *manifest)) {
+    } else if (plan && one.held->summary.manifest_digest != own && !is_of(*one.held, *plan)) {
+      if (is_superseded(*one.held, *plan)) return;
       warn(fmt::format("{}: {}; the record is ignored", (directory / "records" / (one.held->name + ".json")).string(),
                        other_manifest));
     } else {
       // A record without a measure still counts for the quantities that it has.
-      if (manifest) one.held->summary.settings["measure"] = measures;
+      if (manifest) {
+        one.held->summary.settings["measure"] = measures;
+        one.held->summary.study = own;
+      }
       use(*std::move(one.held));
     }
   });

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,10 +19,11 @@ namespace isojam {
 using Warn = std::function<void(const std::string&)>;
 
 /// Checks whether results of this manifest may be written to a directory. It only reads files. Throws InputError if the
-/// directory has another manifest or records of another manifest; the error states what differs. A damaged record of
-/// the plan is ignored, because it will be recomputed. For a damaged record that is not in the plan, `warn` is called.
-/// Throws FileError if a file cannot be read at the moment, or if one of the folders is a symbolic link, because
-/// results would then be written to another directory.
+/// directory has another manifest or records of another manifest; the error states what differs. The sweep may have
+/// grown since, or may be a part of the sweep of the directory. Settings of failed replicates may have changed; these
+/// replicates are computed again. A damaged record of the plan is ignored, because it will be recomputed. For a damaged
+/// record that is not in the plan, `warn` is called. Throws FileError if a file cannot be read at the moment, or if one
+/// of the folders is a symbolic link, because results would then be written to another directory.
 void check_directory(const std::filesystem::path& directory, const Manifest& manifest, const Warn& warn);
 
 /// A results directory. It contains manifest.json, tables.json, and the folders records/, packings/, paths/ and
@@ -67,7 +69,8 @@ class Store {
   void write_tables(const Json& tables) const;
 
   const std::filesystem::path& directory() const { return directory_; }
-  /// The manifest in manifest.json. It may have more replicates than the manifest with which the store was opened.
+  /// The manifest in manifest.json. It may have more replicates and a larger sweep than the manifest with which the
+  /// store was opened.
   const Manifest& kept() const { return kept_; }
   std::filesystem::path record_path(const ReplicateSpec& spec) const { return file("records", spec); }
   std::filesystem::path packing_path(const ReplicateSpec& spec) const { return file("packings", spec); }
@@ -83,6 +86,7 @@ class Store {
   bool keep_path_;
   Warn warn_;
   Manifest kept_;
+  std::shared_ptr<const Plan> plan_;  // of kept_
 };
 
 /// Adds measures to the manifest in the directory, and returns the new manifest. It does not compute them: existing

@@ -27,8 +27,9 @@ std::optional<double> value_below(const JsonPlace& place, std::string_view point
   return value_below(place.at(std::string(pointer.substr(1, end - 1))), pointer.substr(end));
 }
 
-/// Value of a quantity. nullopt if its measure was not requested (the first key of the pointer is missing), or if the
-/// quantity is optional or exists only for mixtures of more kinds. If another key is missing, throws.
+/// Value of a quantity. nullopt if its measure was not requested (the first key of the pointer is missing), if the
+/// version that made the record did not have the quantity (the last key is missing, or the quantity is optional), or if
+/// the packing does not have so many kinds of particles. If another key is missing, throws.
 std::optional<double> quantity_value(const JsonPlace& place, const Quantity& quantity) {
   // Tables read millions of values. Only an unexpected value needs a JsonPlace, which contains texts for messages.
   const Json* value = &place.value();
@@ -36,8 +37,9 @@ std::optional<double> quantity_value(const JsonPlace& place, const Quantity& qua
     const auto end = std::min(rest.find('/', 1), rest.size());
     const auto found = value->is_object() ? value->find(rest.substr(1, end - 1)) : value->end();
     if (found == value->end()) {
+      const bool is_last = value->is_object() && end == rest.size();
       const bool no_object = quantity.kinds > 1 || (quantity.optional && end < rest.size());
-      if (rest.size() == quantity.pointer.size() || no_object) return std::nullopt;
+      if (rest.size() == quantity.pointer.size() || is_last || no_object) return std::nullopt;
       return value_below(place, quantity.pointer);
     }
     value = &*found;
@@ -94,12 +96,14 @@ void read_additions(const JsonPlace& added, RecordSummary& summary) {
   }
 }
 
-/// Reads the measures of a record. Measures that this version does not know are ignored.
-void read_measures(const JsonPlace& measures, RecordSummary& summary) {
+/// Reads a list of measures. Measures that this version does not know are ignored.
+std::vector<Measure> read_measures(const JsonPlace& measures) {
+  std::vector<Measure> list;
   const auto count = measures.expect_list("a list of measures");
   for (std::size_t k = 0; k < count; ++k) {
-    if (const auto measure = from_string<Measure>(measures.at(k).text())) summary.measures.push_back(*measure);
+    if (const auto measure = from_string<Measure>(measures.at(k).text())) list.push_back(*measure);
   }
+  return list;
 }
 
 void read_flags(const JsonPlace& flags, RecordSummary& summary) {
@@ -128,10 +132,11 @@ RecordSummary summarise_record(const Json& record, const std::string& file) {
   spec.at("parameters").expect_object("an object");
   summary.replicate = static_cast<int>(spec.at("replicate").integer({0, 1e9}));
   const auto provenance = root.at("provenance");
-  summary.manifest_digest = provenance.at("manifest_digest").text();
+  summary.study = summary.manifest_digest = provenance.at("manifest_digest").text();
   summary.build = build_text(provenance);
   if (provenance.has("added")) read_additions(provenance.at("added"), summary);
-  read_measures(spec.at("measure"), summary);
+  summary.measures = read_measures(spec.at("measure"));
+  if (root.has("nearest_only")) summary.nearest_only = read_measures(root.at("nearest_only"));
   for (const std::string key : {"protocol", "minimiser", "measure", "modes"})
     summary.settings[key] = spec.at(key).value();
   summary.failed = root.at("status").choice(std::array<std::string_view, 2>{"done", "failed"}) == 1;

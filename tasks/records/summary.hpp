@@ -33,6 +33,9 @@ struct RecordSummary {
   Json parameters;
   int replicate = 0;
   std::string manifest_digest;
+  /// Identifies the study whose replicates are compared with each other: the digest of the manifest of the directory,
+  /// or manifest_digest if the directory has no manifest. The two differ for records from before the sweep grew.
+  std::string study;
   /// The digests of a record before measures were added, and the build that added them.
   struct Before {
     std::string manifest_digest, result_digest, added_by;
@@ -40,8 +43,9 @@ struct RecordSummary {
   /// one element for each time that measures were added
   std::vector<Before> before;
   std::vector<Measure> measures;  ///< measures of the record, without those that this version of isojam does not know
-  Json settings;                  ///< settings of the protocol, the minimiser and the measures
-  std::string build;              ///< version, commit and compiler of the program that made the record
+  std::vector<Measure> nearest_only;  ///< measures whose values are only those of the nearest state
+  Json settings;                      ///< settings of the protocol, the minimiser and the measures
+  std::string build;                  ///< version, commit and compiler of the program that made the record
   /// result_digest() of the record; two records with the same result have the same digest
   std::string result_digest;
   double cpu_seconds = 0;

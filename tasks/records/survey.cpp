@@ -42,8 +42,15 @@ UnderWay under_way(const fs::path& path) {
   return replicate;
 }
 
-void survey_records(const fs::path& directory, const Plan& plan, bool with_paths, Survey& survey) {
+/// CPU times of records, and their estimates.
+struct CpuTimes {
   double measured = 0, estimated = 0;
+
+  double ratio(double otherwise) const { return measured > 0 && estimated > 0 ? measured / estimated : otherwise; }
+};
+
+void survey_records(const fs::path& directory, const Plan& plan, bool with_paths, Survey& survey) {
+  std::vector<CpuTimes> times(survey.points.size());
   for (const auto& name : names_in(directory / "records")) {
     try {
       const auto held = read_abridged_record(directory, name);
@@ -59,7 +66,8 @@ void survey_records(const fs::path& directory, const Plan& plan, bool with_paths
       }
       check_companions(directory, held, with_paths);
       const auto spec = plan.at(place->point, place->replicate);
-      if (held.summary.manifest_digest != plan.manifest_digest() && !is_of(held, plan.manifest())) {
+      if (is_superseded(held, plan)) continue;
+      if (!is_of(held, plan)) {
         survey.others.push_back(name);
         survey.damaged.push_back(fmt::format("{}: {}", name, other_manifest));
         continue;
@@ -75,14 +83,21 @@ void survey_records(const fs::path& directory, const Plan& plan, bool with_paths
       point.failed += summary.failed;
       point.flagged += summary.flagged;
       for (const auto flag : summary.flags) ++survey.flags[flag];
-      measured += summary.cpu_seconds;
-      estimated += estimated_cost(spec, false).cpu_seconds;
+      if (summary.failed) continue;
+      times[place->point].measured += summary.cpu_seconds;
+      times[place->point].estimated += estimated_cost(spec, false).cpu_seconds;
       ++survey.calibration_records;
     } catch (const InputError& damage) {
       survey.damaged.emplace_back(damage.what());
     }
   }
-  if (measured > 0 && estimated > 0) survey.calibration = measured / estimated;
+  CpuTimes all;
+  for (const auto& point : times) {
+    all.measured += point.measured;
+    all.estimated += point.estimated;
+  }
+  for (std::size_t point = 0; point < times.size(); ++point)
+    survey.points[point].calibration = times[point].ratio(all.ratio(1));
 }
 
 void survey_checkpoints(const fs::path& directory, const Plan& plan, Survey& survey) {

@@ -31,6 +31,9 @@ struct Survey {
     /// Only with a stopping rule: its quantity for each recorded replicate, by number of the replicate. nullopt if the
     /// replicate has no value or is excluded.
     std::map<int, std::optional<double>> goal_values;
+    /// Measured CPU time divided by the estimated CPU time: over the records of this point that did not fail, or, if
+    /// there are none, over those of all points. 1 without records.
+    double calibration = 1;
   };
   std::vector<Point> points;        ///< one element for each sweep point of the plan
   std::map<Flag, int> flags;        ///< number of replicates with each flag
@@ -41,9 +44,7 @@ struct Survey {
   std::vector<UnderWay> under_way;
   /// one line for each file that is damaged, missing, or belongs to another manifest
   std::vector<std::string> damaged;
-  /// Measured CPU time divided by the estimated CPU time, over all counted records; 1 if there are none.
-  double calibration = 1;
-  /// number of records from which `calibration` was computed
+  /// number of records from which the calibrations were computed
   int calibration_records = 0;
 };
 

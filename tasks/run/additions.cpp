@@ -38,18 +38,32 @@ bool failed_before_measures(const RecordedReplicate& held) {
   return !from_string<Measure>(held.record.at("failure").at("where").get_ref<const std::string&>());
 }
 
-/// Reason why the states of a successful replicate can no longer be measured; nullopt if they can.
-std::optional<std::string> without_path(const fs::path& directory, const RecordedReplicate& held) {
-  if (!fs::exists(file_of(directory, "paths", held.name))) return std::string(states_not_saved);
+bool has_path(const fs::path& directory, const RecordedReplicate& held) {
+  return fs::exists(file_of(directory, "paths", held.name));
+}
+
+/// Reason why no state of a successful replicate can be measured; nullopt if its path, or at least its packing, can be
+/// read.
+std::optional<std::string> without_states(const fs::path& directory, const RecordedReplicate& held) {
   try {
-    check_companions(directory, held, true);
+    check_companions(directory, held, has_path(directory, held));
     return std::nullopt;
   } catch (const InputError& error) {
     return error.what();
   }
 }
 
+/// All states of a replicate whose path was not kept. Only the nearest state has particles.
+std::vector<Packing> nearest_packing_of(const fs::path& directory, const RecordedReplicate& held) {
+  const auto json = read_state_file_of(directory, held, "packings");
+  auto nearest = read_packing({json, file_of(directory, "packings", held.name)});
+  std::vector<Packing> packings(held.record.at("states").size(), Packing{nearest.solids, nearest.cell, {}});
+  packings.at(index_of_nearest(directory, held)) = std::move(nearest);
+  return packings;
+}
+
 std::vector<Packing> packings_of(const fs::path& directory, const RecordedReplicate& held) {
+  if (!has_path(directory, held)) return nearest_packing_of(directory, held);
   const auto json = read_state_file_of(directory, held, "paths");
   const auto states = JsonPlace(json, file_of(directory, "paths", held.name)).at("states");
   std::vector<Packing> packings;
@@ -69,14 +83,32 @@ bool has_moved(const JamResult& jam, const RecordedReplicate& held) {
   return false;
 }
 
+/// True if only the nearest state is known.
+bool lacks_states(const JamResult& jam) {
+  return std::any_of(jam.states.begin(), jam.states.end(), [](const Packing& state) { return state.size() == 0; });
+}
+
+/// The measurement after the nearest state has moved and only this state is known. Other states keep their values.
+Measurement with_nearest(Measurement recorded, const Measurement& measured, const JamResult& jam) {
+  const auto nearest = *nearest_state(jam);
+  recorded.states.at(nearest) = measured.states.at(nearest);
+  recorded.replicate = measured.replicate;
+  recorded.flags = measured.flags;
+  return recorded;
+}
+
 }  // namespace
 
 Additions additions(const fs::path& directory, const Plan& plan, const std::vector<std::string>& names) {
   Additions result;
   for (const auto& name : names) {
     const auto held = read_record(directory, name);
+    if (is_superseded(held, plan)) {
+      result.impossible.push_back({name, "it failed, and its settings have changed since"});
+      continue;
+    }
     const auto place = plan.place_of(name);
-    if (!place || !is_of(held, plan.manifest()))
+    if (!place || !is_of(held, plan))
       throw InputError({file_of(directory, "records", name), "/provenance/manifest_digest", std::string(other_manifest),
                         plan.manifest_digest(), ""});
     if (lacks(held, plan.manifest()).empty()) continue;
@@ -86,9 +118,10 @@ Additions additions(const fs::path& directory, const Plan& plan, const std::vect
                                                      "nothing can be added; remove it and run it again",
                                                      name, earlier_record_schema)});
     } else if (!held.summary.failed) {
-      if (const auto why = without_path(directory, held)) {
+      if (const auto why = without_states(directory, held)) {
         result.impossible.push_back({name, *why});
       } else {
+        if (!has_path(directory, held)) result.nearest_only.push_back(name);
         result.measured.push_back(std::move(spec));
       }
     } else if (failed_before_measures(held)) {
@@ -112,7 +145,7 @@ Stages Adder::stages() {
     auto& held = records_.at(replicate_name(spec));
     held = read_record(directory, replicate_name(spec));
     auto jam = restored_jam({held->record, store_.record_path(spec).string()}, packings_of(directory, *held), spec);
-    auto progress = begin_expansion(jam.states.back(), spec.options);
+    auto progress = begin_expansion(jam.states.at(*nearest_state(jam)), spec.options);
     progress.result = std::move(jam);
     return {std::move(progress), {}};
   };
@@ -124,8 +157,11 @@ Stages Adder::stages() {
   };
   stages.measure = [this](const ReplicateSpec& spec, Measure what, const JamResult& jam) {
     const auto& held = *records_.at(replicate_name(spec));
-    if (has(held.summary.measures, what) && !has_moved(jam, held)) return recorded_measurement(what, held.record);
-    return measure(what, jam, spec.measuring);
+    const bool recorded = has(held.summary.measures, what);
+    if (recorded && !has_moved(jam, held)) return recorded_measurement(what, held.record);
+    if (!lacks_states(jam)) return measure(what, jam, spec.measuring);
+    auto measured = measure_nearest(what, jam, spec.measuring);
+    return recorded ? with_nearest(recorded_measurement(what, held.record), measured, jam) : measured;
   };
   return stages;
 }

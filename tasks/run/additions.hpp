@@ -13,7 +13,9 @@ namespace isojam {
 
 /// The replicates in a directory whose records do not have all measures of a manifest.
 struct Additions {
-  std::vector<ReplicateSpec> measured;  ///< replicates whose paths are stored, so that measures can be added
+  std::vector<ReplicateSpec> measured;  ///< replicates whose states are stored, so that measures can be added
+  /// names of those among `measured` whose path was not kept: only their nearest states can be measured
+  std::vector<std::string> nearest_only;
   /// replicates that failed before the first measure; nothing must be computed for them
   std::vector<ReplicateSpec> failed;
   /// A replicate to whose record nothing can be added, and the reason. "isojam run" can compute the replicate again.
@@ -36,9 +38,10 @@ class Adder {
   Adder(const Store& store, const std::vector<ReplicateSpec>& replicates);
 
   /// The stages that add measures. They use this object, which must outlive them. `begin` restores the run from the
-  /// record and the path. `jam` relaxes saddles to minima if a measure needs minima and no measure in the record did.
-  /// `measure` takes a measure from the record if the record has it and no state has changed. Otherwise it computes the
-  /// measure.
+  /// record and the path, or the packing if the path was not kept. `jam` relaxes saddles to minima if a measure needs
+  /// minima and no measure in the record did. `measure` takes a measure from the record if the record has it and no
+  /// state has changed. Otherwise it computes the measure, and marks a measurement of the nearest state alone
+  /// (Measurement::nearest_only).
   Stages stages();
 
   /// Replaces the record by one with all measures. Returns nullopt, or the reason if this failed; the record is then

@@ -127,9 +127,12 @@ void Aggregation::add(const RecordSummary& record) {
                       "differs from the setting of " + point.first, "", "",
                       "aggregate only records with the same settings"});
   }
-  const auto [place, added] = point.replicates.try_emplace({record.manifest_digest, record.replicate}, kept(record));
+  const auto [place, added] = point.replicates.try_emplace({record.study, record.replicate}, kept(record));
   for (const auto flag : record.flags) {
     if (added && std::find(exclude_.begin(), exclude_.end(), flag) != exclude_.end()) ++excluded_[flag];
+  }
+  if (added) {
+    for (const auto measure : record.nearest_only) ++nearest_only_[measure];
   }
   if (!added && place->second.result != hash_of(record.result_digest)) {
     throw InputError({describe(record), "/result_digest", "two records of this replicate have different results", "",
@@ -242,7 +245,7 @@ std::optional<Differences> Aggregation::differences(const PointKey& key, const P
 }
 
 Table Aggregation::table(const std::optional<Replicates>& rule) const {
-  Table table{{}, exclude_, excluded_, base_, builds_};
+  Table table{{}, exclude_, excluded_, nearest_only_, base_, builds_};
   for (const auto& [key, point] : points_) {
     table.rows.push_back(row(key, point, rule));
     table.rows.back().differences = differences(key, point);

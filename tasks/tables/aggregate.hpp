@@ -84,6 +84,8 @@ struct Table {
   /// flags that exclude a replicate from means
   std::vector<Flag> exclude;
   std::map<Flag, int> excluded;  ///< number of replicates with each of these flags
+  /// for each measure, the number of replicates for which only the nearest state was measured
+  std::map<Measure, int> nearest_only;
   Json base = Json::object();    ///< the base, see base.hpp; if it is empty, no rows are compared
   std::set<std::string> builds;  ///< builds of the program that made the records or added measures to them
 };
@@ -146,6 +148,7 @@ class Aggregation {
 
   std::vector<Flag> exclude_;
   std::map<Flag, int> excluded_;
+  std::map<Measure, int> nearest_only_;
   Json base_;
   std::map<PointKey, Point> points_;
   std::set<Cells> layouts_;  ///< the distinct lists of cells

@@ -269,8 +269,10 @@ std::string line_about(const LaidOut& laid, const Table& table) {
 }  // namespace
 
 std::string to_text(const Table& table, View view, const TextOptions& options) {
-  std::string text = exclusion_text(table);
-  if (!text.empty()) text = wrapped(text, options.columns) + '\n';
+  std::string text;
+  for (const auto& line : {exclusion_text(table), nearest_only_text(table)}) {
+    if (!line.empty()) text += wrapped(line, options.columns) + '\n';
+  }
   Cells others;
   bool first = true;
   for (const auto& laid : laid_out(table, view, Format::text)) {

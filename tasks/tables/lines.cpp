@@ -46,6 +46,13 @@ std::string exclusion_text(const Table& table) {
   return counts.empty() ? "" : "excluded from means: " + joined(counts, ", ");
 }
 
+std::string nearest_only_text(const Table& table) {
+  Cells counts;
+  for (const auto& [measure, replicates] : table.nearest_only)
+    counts.push_back(fmt::format("{} ({})", to_string(measure), replicates));
+  return counts.empty() ? "" : "measured for the nearest state only (replicates): " + joined(counts, ", ");
+}
+
 std::string difference_title(const Table& table) {
   return table.base.empty() ? "" : "differences from " + base_text(table.base);
 }

@@ -135,6 +135,8 @@ Json to_json(const Table& table) {
   json["builds"] = table.builds;
   json["exclude"] = option_json(table.exclude);
   if (!table.base.empty()) json["base"] = table.base;
+  for (const auto& [measure, replicates] : table.nearest_only)
+    json["nearest_only"][std::string(to_string(measure))] = replicates;
   json["rows"] = Json::array();
   for (const auto& row : table.rows) json["rows"].push_back(to_json(row));
   return json;

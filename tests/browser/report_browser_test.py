@@ -156,11 +156,14 @@ class Report(ChartTests, ManyTests, MixtureTests, Case):
         some = self.pages.with_failures("some-failed", self.full, lambda name: name.endswith("N24-r0000"))
         self.open(self.pages.report(some))
         self.assertIn("3 done, 1 failed", self.find("#summary").text)
-        self.assertIn("failed in jam: made to fail", self.find("#reservations").text)
+        self.assertIn("failed in jam: made to fail with 24 particles: 1 replicate", self.find("#reservations").text)
         self.assertIn("2, 1 failed", self.find("#table").text)
         everything = self.pages.with_failures("all-failed", self.full, lambda name: True)
         self.open(self.pages.report(everything))
         self.assertIn("0 done, 4 failed", self.find("#summary").text)
+        # Failures whose texts differ only in a number are one group.
+        self.assertIn("failed in jam: made to fail with 24 to 28 particles: 4 replicates",
+                      self.find("#reservations").text)
         self.assertIn("No replicate has a packing to show", self.find("#view").text)
         self.assertIn("No replicate reached a jamming density", self.find(".absent").text)
 
@@ -174,11 +177,11 @@ class Report(ChartTests, ManyTests, MixtureTests, Case):
         self.open(self.pages.report(self.swept()))
         self.assertEqual(self.charts(), [name for name in CHARTS if name not in ("forces", "pairs", "spectrum", "scaling",
                                                                             "moduli", "shear")])
-        self.assertIn('add "modes" to "measure" in the manifest', self.find(".absent").text)
+        self.assertIn('isojam measure DIR --add modes', self.find(".absent").text)
         nothing = self.pages.run("bare", measure=[], replicates=1)
         self.open(self.pages.report(nothing))
         self.assertEqual(self.charts(), ["density", "extrapolation", "stops", "evaluations", "time"])
-        self.assertIn('add "contacts" to "measure" in the manifest', self.find(".absent").text)
+        self.assertIn('isojam measure DIR --add contacts', self.find(".absent").text)
 
     def test_cubes(self):
         self.open(self.pages.report(self.pages.by_hand("cubes", self.full, "cube", 64, 0.5)))

@@ -83,7 +83,7 @@ def change_record(path, change):
 
 def fail(record):
     record["status"] = "failed"
-    record["failure"] = {"where": "jam", "why": "made to fail"}
+    record["failure"] = {"where": "jam", "why": f"made to fail with {record['spec']['particles']} particles"}
     for key in ("flags", "phi_j", "nearest"):
         record.pop(key)
 

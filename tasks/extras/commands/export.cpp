@@ -57,12 +57,12 @@ std::vector<std::string> chosen_names(const ExportArguments& arguments) {
   return {recorded_name(arguments.directory, arguments.replicate)};
 }
 
-RecordedReplicate own_record(const ExportArguments& arguments, const std::optional<Manifest>& manifest,
+RecordedReplicate own_record(const ExportArguments& arguments, const std::optional<Plan>& plan,
                              const std::string& name) {
   auto held = read_record(arguments.directory, name);
-  if (manifest && !is_of(held, *manifest))
+  if (plan && !is_of(held, *plan) && !is_superseded(held, *plan))
     throw InputError({record_file(arguments, name), "/provenance/manifest_digest", std::string(other_manifest),
-                      digest(*manifest), ""});
+                      plan->manifest_digest(), ""});
   return held;
 }
 

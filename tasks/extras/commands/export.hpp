@@ -44,8 +44,8 @@ struct ExportArguments {
 /// this check, text such as "../x" cannot become part of a path.
 std::vector<std::string> chosen_names(const ExportArguments& arguments);
 
-/// Reads a record with read_record(). If there is a manifest and the record does not belong to it, throws InputError.
-RecordedReplicate own_record(const ExportArguments& arguments, const std::optional<Manifest>& manifest,
+/// Reads a record with read_record(). If there is a plan and the record does not belong to it, throws InputError.
+RecordedReplicate own_record(const ExportArguments& arguments, const std::optional<Plan>& plan,
                              const std::string& name);
 
 /// True if the replicate did not fail. For a failed replicate, prints a warning and returns false if all replicates are

@@ -46,14 +46,15 @@ ExitCode export_rows(const ExportArguments& arguments, Console& console) {
   // If a name is unknown, this throws before the first line is written.
   const auto names = chosen_names(arguments);
   const auto manifest = stored_manifest(arguments.directory);
+  const auto plan = manifest ? std::optional<Plan>(*manifest) : std::nullopt;
   const auto format = format_of(arguments.output);
   const auto of = arguments.what == Exported::states ? RowOf::state : RowOf::replicate;
-  const RecordRows rows(of, format, manifest, own_record(arguments, manifest, names.front()));
+  const RecordRows rows(of, format, manifest, own_record(arguments, plan, names.front()));
   const bool of_contacts = arguments.what == Exported::contacts;
   Output output(arguments.output);
   output.append(of_contacts ? head_line(format, contact_columns()) : rows.head());
   for (const auto& name : names) {
-    const auto held = own_record(arguments, manifest, name);
+    const auto held = own_record(arguments, plan, name);
     if (!of_contacts) {
       output.append(rows.lines(arguments.directory, held));
     } else if (has_packing(arguments, held, console)) {

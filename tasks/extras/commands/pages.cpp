@@ -24,10 +24,11 @@ constexpr auto write_chart = refuse<ChartArguments>;
 
 void add_report(CLI::App& app, Session& session) {
   ReportArguments* arguments = nullptr;
-  auto options = add_command(app, session, "report", "Write an interactive HTML report of a results directory",
+  auto options = add_command(app, session, "report", "Write an interactive HTML report of results directories",
                              write_report, arguments);
-  options.results_directory(arguments->directory);
-  options.text("-o,--output", arguments->output, "Output file (default: DIR/report.html)", "FILE");
+  options.texts("directories", arguments->directories, "Results directories", "DIR");
+  options.text("-o,--output", arguments->output, "Output file (default: DIR/report.html; required for several DIR)",
+               "FILE");
 }
 
 void add_chart(CLI::App& app, Session& session) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tasks/io/console.hpp"
 #include "tasks/io/exit_codes.hpp"
@@ -11,11 +12,11 @@
 namespace isojam {
 
 struct ReportArguments {
-  std::string directory;
-  std::string output;  ///< output path; empty means report.html in the results directory
+  std::vector<std::string> directories;
+  std::string output;  ///< output path; empty means report.html in the only results directory
 };
 
-/// Writes the report of a results directory as one interactive HTML file, and prints its path to standard output.
+/// Writes the report of results directories as one interactive HTML file, and prints its path to standard output.
 ExitCode report(const ReportArguments& arguments, Console& console);
 
 struct ChartArguments {

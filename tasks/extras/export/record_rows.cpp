@@ -145,8 +145,13 @@ std::string RecordRows::reasons(const Source& source) const {
     if (value && !value->is_null()) continue;
     const auto& has = source.held.summary.measures;
     const bool measured = !quantity.measure || std::find(has.begin(), has.end(), *quantity.measure) != has.end();
-    auto reason = measured ? reason_of(*object, quantity.pointer) : "not measured";
-    const bool is_newer = !value && measured && quantity.optional && !quantity.pointer.starts_with(kinds_pointer);
+    const auto& partly = source.held.summary.nearest_only;
+    const bool nearest_only =
+        !value && quantity.measure && std::find(partly.begin(), partly.end(), *quantity.measure) != partly.end();
+    auto reason = nearest_only ? "only the state nearest jamming was measured"
+                  : measured   ? reason_of(*object, quantity.pointer)
+                               : std::string("not measured");
+    const bool is_newer = !value && measured && quantity.optional;
     if (reason.empty() && is_newer) reason = "recorded by an earlier version";
     if (!reason.empty()) cells.push_back(std::string(quantity.name) + ": " + reason);
   }

@@ -43,17 +43,6 @@ std::vector<StoredState> states_of_path(const fs::path& directory, const Recorde
 
 }  // namespace
 
-std::size_t index_of_nearest(const fs::path& directory, const RecordedReplicate& held) {
-  const JsonPlace record(held.record, file_of(directory, "records", held.name));
-  const auto states = record.at("states");
-  const auto step = record.at("nearest").at("step");
-  const auto count = states.expect_list(list_of_states);
-  for (std::size_t k = 0; k < count; ++k) {
-    if (states.at(k).at("step").value() == step.value()) return k;
-  }
-  step.refuse("no state belongs to this step");
-}
-
 std::vector<StoredState> stored_states(const fs::path& directory, const RecordedReplicate& held, bool path) {
   if (path) return states_of_path(directory, held);
   const JsonPlace record(held.record, file_of(directory, "records", held.name));

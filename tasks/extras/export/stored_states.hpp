@@ -16,9 +16,6 @@ struct StoredState {
   Packing packing;
 };
 
-/// Index of the nearest state in the list `states` of the record. Throws InputError if the list does not contain it.
-std::size_t index_of_nearest(const std::filesystem::path& directory, const RecordedReplicate& held);
-
 /// Reads the nearest state of a replicate. If `path` is true, reads all states of its path, in order. The replicate
 /// must not have failed. Throws FileError if a file is missing, for example because the path was not kept, or cannot be
 /// read at the moment. Throws InputError if a file is damaged or belongs to another record.

@@ -302,9 +302,8 @@ Json measure_list(const Results& results) {
   return measures;
 }
 
-/// Measures that can still be added. Null if the manifest did not keep the states of decompressions.
-Json addable_list(const Results& results, const Json& measures) {
-  if (value_at(results.manifest, "/keep_path") != true) return nullptr;
+/// Measures that can still be added with "isojam measure".
+Json addable_list(const Json& measures) {
   Json addable = Json::array();
   for (const auto name : all_names<Measure>) {
     if (std::find(measures.begin(), measures.end(), name) == measures.end()) addable.push_back(name);
@@ -355,7 +354,8 @@ Json report_data(const Results& results, const std::map<std::size_t, Json>& view
   data["exclude"] = option_json(exclude);
   data["builds"] = provenance_list(results);
   data["measures"] = measure_list(results);
-  data["addable"] = addable_list(results, data["measures"]);
+  data["addable"] = addable_list(data["measures"]);
+  data["keeps_paths"] = value_at(results.manifest, "/keep_path") == true;
   data["columns"] = column_list();
   data["parameters"] = Json::object();
   for (const auto& name : parameter_names(table)) data["parameters"][name] = parameter_head(name);

@@ -9,7 +9,9 @@
 // 5. Local Q_l of a simple cubic lattice is the closed form; a particle without contacts has none.
 // 6. The pair correlation agrees with a direct mean over pairs and images. For a lattice, its counts are those of the
 //    neighbour shells. It is 1 for aligned particles, and 0 within statistical errors for random ones.
-// 7. The results for N = 1, 2, 3 and for no contacts are defined. Invalid input is rejected.
+// 7. The limits of S and of the local order separate independent orientations from crystals whose particles are rotated
+//    at random by about five degrees. A polycrystal is found by its local order alone, which agrees with a direct mean.
+// 8. The results for N = 1, 2, 3 and for no contacts are defined. Invalid input is rejected.
 
 #include "engine/analysis/orientation_order.hpp"
 
@@ -128,6 +130,68 @@ TEST_P(OrientationOf, RotatingAllChangesNothing) {
   const Quaterniond turn = random_orientation(random);
   for (Pose& pose : packing.poses) pose.orientation = turn * pose.orientation;
   EXPECT_NEAR(order_of(packing), before, 1e-12);
+}
+
+/// The orientation `q` followed by rotations about three axes by angles with this standard deviation.
+Quaterniond disturbed(const Quaterniond& q, double deviation, RandomStream& random) {
+  // A uniform number in (−√3, √3) has the variance 1.
+  const auto angle = [&] { return deviation * std::sqrt(3.0) * (2 * random.uniform() - 1); };
+  const double a = angle(), b = angle(), c = angle();
+  return q * Quaterniond(Eigen::AngleAxisd(a, Vector3d::UnitX())) *
+         Quaterniond(Eigen::AngleAxisd(b, Vector3d::UnitY())) * Quaterniond(Eigen::AngleAxisd(c, Vector3d::UnitZ()));
+}
+
+/// Contacts between each particle and its six neighbours on a simple cubic lattice with `side` particles per edge.
+std::vector<Contact> lattice_contacts(int side) {
+  std::vector<Contact> contacts;
+  const auto index = [&](int x, int y, int z) { return (x % side * side + y % side) * side + z % side; };
+  for (int x = 0; x < side; ++x) {
+    for (int y = 0; y < side; ++y) {
+      for (int z = 0; z < side; ++z) {
+        for (const int other : {index(x + 1, y, z), index(x, y + 1, z), index(x, y, z + 1)}) {
+          Contact contact;
+          contact.pair.a = index(x, y, z);
+          contact.pair.b = other;
+          contact.displacement = Vector3d::UnitX();
+          contacts.push_back(contact);
+        }
+      }
+    }
+  }
+  return contacts;
+}
+
+TEST_P(OrientationOf, LimitsSeparateRandomOrientationsFromCrystals) {
+  constexpr int side = 8, n = side * side * side, sets = 20;
+  constexpr double five_degrees = 0.087;
+  const auto contacts = lattice_contacts(side);
+  const OrderLimits limits = order_limits(rank);
+  for (int set = 0; set < sets; ++set) {
+    Packing packing = scattered(solid, n, 20, random);
+    EXPECT_FALSE(is_aligned(order_of(packing, contacts)));
+    packing.poses.resize(64);
+    EXPECT_LT(order_of(packing, {}).S.value(), limits.S) << "also for few particles";
+    packing = scattered(solid, n, 20, random);
+    for (Pose& pose : packing.poses) pose.orientation = disturbed(Quaterniond::Identity(), five_degrees, random);
+    const Order crystal = order_of(packing, contacts);
+    EXPECT_GT(crystal.S.value(), limits.S);
+    EXPECT_GT(crystal.local_S.value(), limits.local_S);
+    // Eight grains of 4³ particles. A quarter of all contacts is between grains.
+    std::vector<Quaterniond> grains;
+    for (int k = 0; k < 8; ++k) grains.push_back(random_orientation(random));
+    for (int k = 0; k < n; ++k) {
+      const int x = k / (side * side), y = k / side % side, z = k % side;
+      packing.poses[k].orientation = disturbed(grains[x / 4 * 4 + y / 4 * 2 + z / 4], five_degrees / 2, random);
+    }
+    const Order polycrystal = order_of(packing, contacts);
+    EXPECT_TRUE(is_aligned(polycrystal));
+    EXPECT_GT(polycrystal.local_S.value(), limits.local_S);
+    const MatrixXd harmonics = orientation_harmonics(packing, rank);
+    double sum = 0;
+    for (const Contact& c : contacts) sum += harmonics.col(c.pair.a).dot(harmonics.col(c.pair.b));
+    EXPECT_NEAR(polycrystal.local_S.value(), sum / static_cast<double>(contacts.size()), 1e-12);
+    EXPECT_EQ(polycrystal.random_local_S, 1 / std::sqrt((2.0 * rank + 1) * static_cast<double>(contacts.size())));
+  }
 }
 
 TEST_P(OrientationOf, FewParticlesHaveDefinedResults) {

@@ -22,8 +22,8 @@ std::string differences_to_good(const std::string& pointer, const Json& value) {
 
 TEST(Differences, AreNamedWithBothValues) {
   EXPECT_EQ(differences_to_good("/seed", 8), "/seed: 8 in the directory, 7 in this manifest");
-  EXPECT_EQ(differences_to_good("/sweep/solid", {"cube"}),
-            "/sweep/solid: [\"cube\"] in the directory, [\"dodecahedron\"] in this manifest");
+  EXPECT_EQ(differences_to_good("/sweep/solid", {"icosahedron"}),
+            "/sweep/solid: [\"icosahedron\"] in the directory, [\"dodecahedron\"] in this manifest");
   EXPECT_EQ(differences_to_good("/minimiser/residual", 1e-9),
             "/minimiser/residual: 1e-09 in the directory, 1e-06 in this manifest");
   EXPECT_EQ(differences_to_good("/sweep/fit_window", {0.01, 0.02}),

@@ -1,6 +1,7 @@
 // Properties tested here:
 // - A setting that is known to give no good results causes a warning that names the key to change.
 // - The defaults and the examples cause no warning.
+// - A key without effect causes a warning, and the same key with an effect does not.
 
 #include "tasks/manifest/warnings.hpp"
 
@@ -90,8 +91,23 @@ TEST(Warnings, MinimisersMustReachTheResidual) {
   EXPECT_EQ(of_minimiser({{"method", "fire"}, {"residual", 1e-3}}), Lines{});
   EXPECT_EQ(of_protocol({{"consolidation_evaluations", 100}}), Lines{"/protocol/consolidation_evaluations"});
   EXPECT_EQ(warned({{"sweep", {{"solid", {"cube"}}}}, {"protocol", {{"consolidation_evaluations", 100}}}}), Lines{});
-  // If a user chooses "hasty", this is on purpose.
-  EXPECT_EQ(of_protocol({{"consolidation_evaluations", 100}, {"consolidation", "hasty"}}), Lines{});
+  // If a user chooses "hasty", few evaluations are on purpose. More than 50 are not used.
+  EXPECT_EQ(of_protocol({{"consolidation_evaluations", 50}, {"consolidation", "hasty"}}), Lines{});
+  EXPECT_EQ(of_protocol({{"consolidation_evaluations", 100}, {"consolidation", "hasty"}}),
+            Lines{"/protocol/consolidation_evaluations"});
+}
+
+TEST(Warnings, KeysWithoutEffect) {
+  const Json shear{{"mode", "simple"}};
+  EXPECT_EQ(warned({{"shear", shear}}), Lines{"/shear"});
+  EXPECT_EQ(warned({{"shear", shear}, {"measure", {"shear"}}}), Lines{});
+  EXPECT_EQ(warned({{"modes", 20}, {"measure", {"contacts"}}}), Lines{"/modes"});
+  EXPECT_EQ(warned({{"modes", 20}, {"measure", {"backbone"}}}), Lines{});
+  EXPECT_EQ(warned({{"exclude", {"not_stable"}}, {"measure", {"contacts"}}}), Lines{"/exclude"});
+  EXPECT_EQ(warned({{"exclude", {"not_stable"}}, {"measure", {"modes"}}}), Lines{});
+  const Json box{{"brick", {{"box", {1, 1, 2}}}}};
+  EXPECT_EQ(warned({{"solids", box}}), Lines{"/solids/brick"});
+  EXPECT_EQ(warned({{"solids", box}, {"sweep", {{"solid", {"brick"}}}}}), Lines{});
 }
 
 TEST(Warnings, AStoppingRuleNeedsTheSpreadOfEnoughReplicates) {

@@ -53,7 +53,9 @@ def run(manifest: Mapping[str, Any] | Path, directory: Path, threads: int = 2, p
 
 def measure(directory: Path, *measures: str, threads: int = 2, progress: bool = True,
             program: Path | None = None) -> Study:
-    """Adds measures to the records of a study whose manifest has "keep_path": true. Returns a Study.
+    """Adds measures to the records of a study. Returns a Study.
+
+    If the manifest does not have "keep_path": true, only the state nearest jamming is measured.
 
     directory  the results directory
     measures   names of measures; without them, the function completes an interrupted call

@@ -118,7 +118,7 @@ function angleNote(data, kind, symbol, together) {
 function angleFigure(data, choices, kind, {title, id, symbol}) {
   const rows = data.rows.flatMap((row, index) => (row.angles?.[kind] ? [index] : []));
   if (rows.length === 0) {
-    return {id, title, absent: 'no alignment angles were measured; add "contacts" to "measure" in the manifest.'};
+    return {id, title, absent: 'no alignment angles were measured; run "isojam measure DIR --add contacts".'};
   }
   const placement = placementOf(data, rows, choices);
   const datasets = angleData(data, kind, placement);

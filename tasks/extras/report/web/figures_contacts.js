@@ -106,7 +106,7 @@ function topologyPanel(placement, index, place, {x, y, boxes}) {
     ]});
 }
 
-const contactsAbsent = 'no contact numbers were measured; add "contacts" to "measure" in the manifest.';
+const contactsAbsent = 'no contact numbers were measured; run "isojam measure DIR --add contacts".';
 const contactsTitle = 'Contacts and constraints against distance above jamming';
 
 function topologyFigure(data, choices) {

@@ -25,7 +25,7 @@ function moduliFigure(data, choices) {
   const keys = Object.keys(modulusSeries);
   const rows = rowsWith(data, keys, above);
   if (rows.length === 0)
-    return {id, title, absent: 'no moduli were measured; add "moduli" to "measure" in the manifest.'};
+    return {id, title, absent: 'no moduli were measured; run "isojam measure DIR --add moduli".'};
   if (choices.together) return moduliTogether(data, rows, {id, title, keys, above});
   const placement = placementOf(data, rows, choices);
   const {points: states, boxes} = stateEntries(data, keys, {tag: placement.tag, above, yType: 'log'});

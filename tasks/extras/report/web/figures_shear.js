@@ -86,7 +86,7 @@ function shearFigure(data, choices) {
   const sheared = ({shear}) => shear.some(({strain, stress}) => isNumber(strain) && isNumber(stress));
   const rows = data.replicates.filter(sheared).map(({row}) => row);
   if (rows.length === 0)
-    return {id, title, absent: 'no shear was measured; add "shear" to "measure" in the manifest.'};
+    return {id, title, absent: 'no shear was measured; run "isojam measure DIR --add shear".'};
   const placement = placementOf(data, rows, choices);
   const datasets = shearData(data, placement, rows);
   const {states, strokes, boxes} = datasets, kinds = unique(strokes.map(({stroke}) => stroke));

@@ -1,7 +1,7 @@
 'use strict';
 
 const modesAbsent = (id, title) => ({
-  id, title, absent: 'no modes were measured; add "modes" to "measure" in the manifest.',
+  id, title, absent: 'no modes were measured; run "isojam measure DIR --add modes".',
 });
 
 /// Edges of bins in log₁₀ ω, and how wide spectra of several replicates have them in common.

@@ -26,10 +26,9 @@ function drawProvenance(data) {
   put('Sweep', data.manifest.name);
   put('Seed', data.manifest.seed);
   put('Measures', data.measures.map(String).join(', ') || 'none besides the jamming density');
-  if (data.addable === null) {
-    put('Can be added', 'none: the states of the decompression were not saved; set "keep_path": true in the manifest');
-  } else if (data.addable.length > 0) {
-    put('Can be added', `${data.addable.join(', ')}; run "isojam measure DIR --add ${data.addable[0]}"`);
+  if (data.addable.length > 0) {
+    const only = data.keeps_paths ? '' : ' (for the nearest states only, because "keep_path" was false)';
+    put('Can be added', `${data.addable.join(', ')}; run "isojam measure DIR --add ${data.addable[0]}"${only}`);
   }
   for (const build of data.builds) {
     put('Manifest digest', build.manifest_digest);

@@ -1,15 +1,34 @@
 'use strict';
 
-/// Replicates by what is said of them: a flag, or where and why they failed.
+const numberInText = /[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?/g;
+
+/// Texts that differ only in their numbers, as one text with the range of each number.
+function withRanges(texts) {
+  const numbers = texts.map((text) => text.match(numberInText) ?? []);
+  let index = 0;
+  return texts[0].replace(numberInText, () => {
+    const column = unique(numbers.map((list) => list[index])).sort((a, b) => Number(a) - Number(b));
+    index += 1;
+    return column.length === 1 ? column[0] : `${column[0]} to ${column[column.length - 1]}`;
+  });
+}
+
+/// Replicates by what is said of them: a flag, or where and why they failed. Failures whose texts differ only in their
+/// numbers are one group.
 function reasonsOf(replicates) {
-  const reasons = new Map();
-  const put = (reason, replicate) => reasons.set(reason, [...reasons.get(reason) ?? [], replicate]);
+  const groups = new Map();
+  const put = (kind, text, replicate) => {
+    const group = groups.get(kind) ?? {texts: [], members: []};
+    groups.set(kind, {texts: [...group.texts, text], members: [...group.members, replicate]});
+  };
   for (const replicate of replicates) {
     const {failure, flags} = replicate;
-    if (failure) put(`failed in ${failure.where}: ${failure.why}`, replicate);
-    else for (const flag of unique(flags)) put(flag, replicate);
+    const text = failure && `failed in ${failure.where}: ${failure.why}`;
+    if (failure) put(text.replace(numberInText, '#'), text, replicate);
+    else for (const flag of unique(flags)) put(flag, flag, replicate);
   }
-  return [...reasons].sort((a, b) => b[1].length - a[1].length || (a[0] < b[0] ? -1 : 1));
+  const reasons = [...groups.values()].map(({texts, members}) => [withRanges(texts), members]);
+  return reasons.sort((a, b) => b[1].length - a[1].length || (a[0] < b[0] ? -1 : 1));
 }
 
 /// Of each sweep point how many, and which.

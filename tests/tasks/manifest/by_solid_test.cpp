@@ -1,0 +1,90 @@
+// Properties tested here:
+// - Parameters in /protocol/by_solid reach only the replicates of their solid. The canonical form keeps them.
+// - Without them and without cubes, the canonical form has no such key, so earlier digests stay.
+// - Cubes have a larger max_density by default, which is above the density of a crystal with the target energy. A given
+//   or swept max_density takes precedence. In a small cell, the usual limit stays.
+// - Unknown solids, unknown and swept parameters, and values that contradict each other are refused.
+
+#include "tasks/manifest/by_solid.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tasks/manifest/plan.hpp"
+#include "tests/tasks/support/bad_manifests.hpp"
+
+namespace isojam {
+namespace {
+
+Json manifest_of(const Json& solids, const Json& protocol, int particles = 150) {
+  auto manifest = test::good_manifest();
+  manifest["sweep"] = {{"solid", solids}, {"particles", {particles}}};
+  manifest["protocol"] = protocol;
+  return manifest;
+}
+
+Manifest parsed(const Json& manifest) { return parse_manifest(manifest.dump(), "m.json"); }
+
+double limit_of(const Manifest& manifest, std::size_t point) {
+  return Plan(manifest).at(point, 0).options.compression.max_density;
+}
+
+std::string refusal(const Json& manifest) {
+  try {
+    parsed(manifest);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(BySolid, ReachesOnlyItsSolid) {
+  const Json own{{"octahedron", {{"max_density", 1.05}, {"final_distance", 0.01}}}};
+  const auto manifest = parsed(manifest_of({"dodecahedron", "octahedron"}, {{"by_solid", own}}));
+  const Plan plan(manifest);
+  const auto octahedra = plan.at(0, 0).options, dodecahedra = plan.at(1, 0).options;
+  EXPECT_EQ(dodecahedra.compression.max_density, JamOptions{}.compression.max_density);
+  EXPECT_EQ(octahedra.compression.max_density, 1.05);
+  EXPECT_EQ(octahedra.decompression.final_distance, 0.01);
+  EXPECT_EQ(octahedra.compression.step, JamOptions{}.compression.step);
+  EXPECT_EQ(to_json(manifest).at("protocol").at("by_solid"), own);
+  EXPECT_EQ(digest(parsed(to_json(manifest))), digest(manifest));
+  const auto without = parsed(manifest_of({"dodecahedron", "octahedron"}, Json::object()));
+  EXPECT_FALSE(to_json(without).at("protocol").contains("by_solid"));
+  EXPECT_NE(digest(without), digest(manifest));
+}
+
+TEST(BySolid, CubesHaveALimitAboveThatOfCrystals) {
+  const Json both{"cube", "octahedron"};
+  const auto manifest = parsed(manifest_of(both, Json::object()));
+  EXPECT_EQ(limit_of(manifest, 0), 1.07);
+  EXPECT_EQ(limit_of(manifest, 1), 0.93);
+  EXPECT_EQ(digest(parsed(to_json(manifest))), digest(manifest));
+  const auto raised = parsed(manifest_of(both, {{"target_energy", 1e-3}}));
+  EXPECT_GT(limit_of(raised, 0), 1.2);
+  for (const auto& given : {parsed(manifest_of(both, {{"max_density", 0.93}})),
+                            parsed(manifest_of(both, {{"by_solid", {{"cube", {{"max_density", 0.93}}}}}})),
+                            parsed(manifest_of({"cube"}, Json::object(), 44))}) {
+    EXPECT_EQ(limit_of(given, 0), 0.93);
+  }
+  auto swept = manifest_of(both, Json::object());
+  swept["sweep"]["max_density"] = {0.9, 0.93};
+  EXPECT_EQ(limit_of(parsed(swept), 1), 0.93);
+}
+
+TEST(BySolid, RefusesWhatHasNoMeaning) {
+  const auto by_solid = [](const Json& values) { return manifest_of({"octahedron"}, {{"by_solid", values}}); };
+  const Json limit{{"max_density", 1.05}};
+  EXPECT_NE(refusal(by_solid({{"octahedrons", limit}})).find("did you mean \"octahedron\""), std::string::npos);
+  EXPECT_NE(refusal(by_solid({{"octahedron", {{"max_densty", 1}}}})).find("did you mean \"max_density\""),
+            std::string::npos);
+  EXPECT_NE(refusal(by_solid({{"octahedron", {{"max_density", 3}}}})).find("/protocol/by_solid/octahedron/max_density"),
+            std::string::npos);
+  EXPECT_NE(refusal(by_solid({{"octahedron", {{"max_density", 0.04}}}})).find("initial_density 0.05 is not below"),
+            std::string::npos);
+  auto swept = by_solid({{"octahedron", limit}});
+  swept["sweep"]["max_density"] = {0.9, 0.93};
+  EXPECT_NE(refusal(swept).find("the parameter is also swept"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace isojam
