@@ -189,8 +189,8 @@ class StrainStep {
       end_expansion(JamStatus::jammed);
   }
 
-  /// The first state of a decompression. Close to an equilibrium, Newton's method converges in a few iterations. From the
-  /// end of the compression of a large packing, it needs hundreds, and the method of multipliers far fewer.
+  /// The first state of a decompression. Close to an equilibrium, Newton's method converges in a few iterations. From
+  /// the end of the compression of a large packing, it needs hundreds, and the method of multipliers far fewer.
   const JamStep& first_state(Packing& next) {
     const Evaluation value = energy_.evaluate(next);
     if (options_.minimise.method != Method::multipliers || value.residual < newton_below || !(value.pressure > 0))

@@ -64,7 +64,7 @@ void say_nearest_only(const Additions& additions, Console& console) {
   if (count == 0) return;
   console.info(
       fmt::format("{} of {} without the states of the decompression (\"keep_path\": true saves them): measures "
-                  "only the nearest state",
+                  "only the state nearest jamming",
                   count, counted(additions.measured.size(), "record")));
 }
 

@@ -147,7 +147,7 @@ ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard
           campaign, [&](const auto& name) { return complete.contains(name); }, console))
     return ExitCode::some_failed;
   store.write_tables(to_json(table));
-  print_tables(table, directory);
+  print_tables(table, store.directory().string());
   const bool failed = std::any_of(table.rows.begin(), table.rows.end(), [](const Row& row) { return row.failed > 0; });
   return failed ? ExitCode::some_failed : code;
 }

@@ -80,10 +80,11 @@ JamOptions options_of(const Manifest& manifest, const OptionSet& set, const Mixt
 
 /// Parses a manifest and checks it in stages: first the JSON syntax and the checksum, then each value, then
 /// combinations of values, and last the files of /start without digests. Throws one InputError with all errors of the
-/// first stage that finds an error. `file` is the name of the manifest in error messages; paths in /start are relative to its folder.
+/// first stage that finds an error. `file` is the name of the manifest in error messages; paths in /start are relative
+/// to its folder.
 Manifest parse_manifest(std::string_view text, const std::string& file);
-/// Reads a manifest of the user and checks it like parse_manifest(), but always reads the files of /start. The file name
-/// "-" means standard input. Throws FileError if the file cannot be read.
+/// Reads a manifest of the user and checks it like parse_manifest(), but always reads the files of /start. The file
+/// name "-" means standard input. Throws FileError if the file cannot be read.
 Manifest read_manifest(const std::string& file);
 
 /// Canonical form of a manifest. It contains every value, including defaults, and lists whose order has no meaning are

@@ -228,9 +228,9 @@ void look_at_effects(const Manifest& manifest, Warnings& warnings) {
                                             to_string(flag), to_string(what)));
   }
   for (const auto& [name, definition] : manifest.definitions) {
+    const auto is_it = [&solid = name](const auto& kind) { return to_string(kind.solid) == solid; };
     const auto uses = [&](const Mixture& mixture) {
-      const auto& kinds = mixture.kinds();
-      return std::any_of(kinds.begin(), kinds.end(), [&](const auto& kind) { return to_string(kind.solid) == name; });
+      return std::any_of(mixture.kinds().begin(), mixture.kinds().end(), is_it);
     };
     if (std::none_of(manifest.solids.begin(), manifest.solids.end(), uses))
       warnings.add_at("/solids/" + name, "has no effect; add the name to /sweep/solid");

@@ -38,8 +38,7 @@ struct Quantity {
   /// Measure that computes the quantity, set by all_quantities(). nullopt for quantities of the protocol.
   std::optional<Measure> measure = std::nullopt;
   bool proportion = false;  ///< true if each value is 0 or 1, so that the mean is a proportion
-  /// True if some records lack the object that contains the quantity, because they are of earlier builds. The quantity
-  /// then has no value.
+  /// True if records of earlier versions lack the quantity. It then has no value.
   bool optional = false;
   /// smallest number of kinds of particles for which a packing has the quantity
   int kinds = 1;
@@ -51,7 +50,7 @@ constexpr Quantity proportion(Quantity quantity) {
   return quantity;
 }
 
-/// The same quantity, whose object some records lack.
+/// The same quantity, which records of earlier versions lack.
 constexpr Quantity optional_quantity(Quantity quantity) {
   quantity.optional = true;
   return quantity;

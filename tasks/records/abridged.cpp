@@ -63,7 +63,8 @@ class Reader {
     const auto end = std::min(text_.find('"', at_ + 1), text_.size() - 1);
     value = text_.substr(at_ + 1, end - at_ - 1);
     take(end + 1 - at_);
-    return std::all_of(value.begin(), value.end(), [](char c) { return c >= ' ' && c != '\\' && c != '"'; });
+    const auto is_plain = [](char c) { return static_cast<unsigned char>(c) >= ' ' && c != '\\' && c != '"'; };
+    return std::all_of(value.begin(), value.end(), is_plain);
   }
 
   bool scalar(Json* into) {
@@ -115,7 +116,8 @@ class Reader {
       skip_space();
       if (!take_if(':')) return false;
       skip_space();
-      return value(child, keep, depth + 1);
+      // Tables find troughs in these histograms.
+      return value(child, key == "angle_bins" ? Keep::all : keep, depth + 1);
     });
   }
 

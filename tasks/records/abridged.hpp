@@ -10,7 +10,7 @@ namespace isojam {
 
 /// The part of a record that tables and surveys need.
 struct Abridged {
-  Json record;                ///< the record without its path, and with empty lists inside its states
+  Json record;  ///< the record without its path, and with empty lists inside its states, except histograms of angles
   std::string result_digest;  ///< result_digest() of the whole record
 };
 

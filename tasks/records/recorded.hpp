@@ -25,7 +25,7 @@ struct RecordedReplicate {
 RecordedReplicate read_record(const std::filesystem::path& directory, const std::string& name);
 
 /// The same with less time, for tables and surveys. The key `path` is missing in `record`, and lists inside its states
-/// may be empty.
+/// may be empty, except histograms of angles.
 RecordedReplicate read_abridged_record(const std::filesystem::path& directory, const std::string& name);
 
 /// True if the record has the result that this plan requests, apart from measures. Either the identity() of the

@@ -75,7 +75,9 @@ std::optional<Manifest> manifest_in(const fs::path& directory, const Manifest& m
   if (!theirs || digest(*theirs) == digest(manifest)) return theirs;
   const bool is_growth =
       contains_sweep(manifest, *theirs) || (contains_sweep(*theirs, manifest) && has_settings_of(*theirs, manifest));
-  if (is_growth && theirs->measures == manifest.measures) return theirs;
+  // Before the first record, the measures can still change.
+  const bool is_begun = !names_in(directory / "records").empty() || !contains_sweep(manifest, *theirs);
+  if (is_growth && (theirs->measures == manifest.measures || !is_begun)) return theirs;
   if (is_growth)
     throw InputError({path.string(), "/measure", "the directory has other measures than the manifest", "", "",
                       how_to_add(directory, *theirs, manifest)});

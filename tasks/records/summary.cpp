@@ -28,8 +28,7 @@ std::optional<double> value_below(const JsonPlace& place, std::string_view point
 }
 
 /// Value of a quantity. nullopt if its measure was not requested (the first key of the pointer is missing), if the
-/// version that made the record did not have the quantity (the last key is missing, or the quantity is optional), or if
-/// the packing does not have so many kinds of particles. If another key is missing, throws.
+/// quantity is optional, or if the packing does not have so many kinds of particles. If another key is missing, throws.
 std::optional<double> quantity_value(const JsonPlace& place, const Quantity& quantity) {
   // Tables read millions of values. Only an unexpected value needs a JsonPlace, which contains texts for messages.
   const Json* value = &place.value();
@@ -37,9 +36,8 @@ std::optional<double> quantity_value(const JsonPlace& place, const Quantity& qua
     const auto end = std::min(rest.find('/', 1), rest.size());
     const auto found = value->is_object() ? value->find(rest.substr(1, end - 1)) : value->end();
     if (found == value->end()) {
-      const bool is_last = value->is_object() && end == rest.size();
-      const bool no_object = quantity.kinds > 1 || (quantity.optional && end < rest.size());
-      if (rest.size() == quantity.pointer.size() || is_last || no_object) return std::nullopt;
+      const bool can_be_missing = quantity.kinds > 1 || quantity.optional;
+      if (rest.size() == quantity.pointer.size() || can_be_missing) return std::nullopt;
       return value_below(place, quantity.pointer);
     }
     value = &*found;

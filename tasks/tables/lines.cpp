@@ -50,7 +50,7 @@ std::string nearest_only_text(const Table& table) {
   Cells counts;
   for (const auto& [measure, replicates] : table.nearest_only)
     counts.push_back(fmt::format("{} ({})", to_string(measure), replicates));
-  return counts.empty() ? "" : "measured for the nearest state only (replicates): " + joined(counts, ", ");
+  return counts.empty() ? "" : "measured only for the state nearest jamming (replicates): " + joined(counts, ", ");
 }
 
 std::string difference_title(const Table& table) {

@@ -286,7 +286,7 @@ class Anew(unittest.TestCase):
                                              ("search-protocol", "paper-search-protocol", "200/384", None)])
         for name, studies in made.items():
             committed = json.loads((PAPER / "data" / f"{name}.json").read_text(encoding="utf-8"))
-            self.assertEqual(anew.same_figures(self, committed, studies), 1, name)
+            self.assertEqual(anew.same_packings(self, committed, studies), 1, name)
 
 
 if __name__ == "__main__":

@@ -292,7 +292,7 @@ class Anew(unittest.TestCase):
         made = anew.gathered(ISOJAM, RIGIDITY, [("n50", "rigidity-50", "38/48", measures),
                                                 ("n50-tetrahedra", "rigidity-50-tetrahedra", "2/16", measures)])
         committed = json.loads((RIGIDITY / "data" / "records.json").read_text(encoding="utf-8"))
-        self.assertEqual(anew.same_figures(self, committed, made["records"]), 2)
+        self.assertEqual(anew.same_packings(self, committed, made["records"]), 2)
 
 
 if __name__ == "__main__":

@@ -125,8 +125,9 @@ class Kept(support.Case):
         replicates = support.study(MIXED).replicates
         all_means, kept_means = replicates.groupby("solid").phi_j.mean(), replicates.kept.groupby("solid").phi_j.mean()
         self.assertGreater(all_means["cubes_and_tetrahedra"] - kept_means["cubes_and_tetrahedra"], 1e-3)
-        self.assertEqual((list(all_means.index), list(kept_means.index)),
-                         (["brick", "cubes_and_tetrahedra"], ["cubes_and_tetrahedra"]))
+        self.assertEqual(list(all_means.index), ["brick", "cubes_and_tetrahedra"])
+        rows = json.loads((MIXED / "tables.json").read_text())["rows"]
+        self.assertEqual(list(kept_means.index), sorted({row["solid"] for row in rows if row["phi_j"]["n"]}))
 
     def test_replicates(self):
         excluded = 0

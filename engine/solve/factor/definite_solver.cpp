@@ -7,8 +7,8 @@ namespace isojam {
 
 namespace {
 
-/// From this number of particles on, a complete factorisation costs more than `most_iterations` iterations.
-constexpr int large = 600, most_iterations = 300;
+/// From this number of particles on, a complete factorisation costs more than `iteration_limit` iterations.
+constexpr int large = 600, iteration_limit = 300;
 
 /// Shift of the preconditioner in units of the largest diagonal entry, if the factorisation fails without one. It grows
 /// by `growth` until the factorisation succeeds.
@@ -61,7 +61,7 @@ std::optional<Eigen::VectorXd> DefiniteSolver::solve(const BlockMatrix& matrix, 
       ++work.incomplete_factorisations;
     }
     if (extra < most_extra_shift) {
-      IterativeSolution found = conjugate_gradients(matrix, shift, incomplete_, b, tolerance, most_iterations);
+      IterativeSolution found = conjugate_gradients(matrix, shift, incomplete_, b, tolerance, iteration_limit);
       work.krylov_vectors += found.iterations;
       if (found.end == IterativeSolution::End::converged) return std::move(found.x);
       if (found.end == IterativeSolution::End::negative_curvature) return std::nullopt;

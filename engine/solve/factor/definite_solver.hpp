@@ -10,8 +10,8 @@
 
 namespace isojam {
 
-/// Solves (H + shift·1) x = b for a positive definite matrix. The cost of a complete factorisation grows faster than the
-/// square of the number of particles. Large systems are therefore first tried with conjugate gradients, whose
+/// Solves (H + shift·1) x = b for a positive definite matrix. The cost of a complete factorisation grows faster than
+/// the square of the number of particles. Large systems are therefore first tried with conjugate gradients, whose
 /// preconditioner is an incomplete factorisation. If they do not converge soon, the complete factorisation follows.
 class DefiniteSolver {
  public:

@@ -15,8 +15,9 @@ namespace isojam {
 /// strains, the preconditioner neglects the coupling of strains and particles.
 class IncompleteCholesky {
  public:
-  /// Factorises the matrix. Returns false if a pivot block is not positive definite. This can happen even if H + shift·1
-  /// is positive definite; a larger shift then helps. solve() may be called only after factorise() has returned true.
+  /// Factorises the matrix. Returns false if a pivot block is not positive definite. This can happen even if H +
+  /// shift·1 is positive definite; a larger shift then helps. solve() may be called only after factorise() has returned
+  /// true.
   bool factorise(const BlockMatrix& matrix, double shift);
   /// The approximate solution of (H + shift·1) x = b. b must have matrix.rows() entries.
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;

@@ -19,8 +19,7 @@ enum class StopReason {
   /// multipliers has further criteria, see multipliers.cpp.
   unjammed,
   precision_floor,  ///< the residual is at most the residual floor in double-double
-  /// The largest number of evaluations was reached. The method of multipliers also has a largest number of
-  /// factorisations.
+  /// The largest number of evaluations was reached. The method of multipliers also has a largest number of iterations.
   budget,
   line_search_failed,  ///< no step that lowers the energy was found
   cell_limit,          ///< the cell became so small or skew that a particle could touch two images of another particle

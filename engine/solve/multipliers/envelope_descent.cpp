@@ -16,8 +16,8 @@ constexpr double first_shift = 1, least_shift = 1e-7, most_shift = 1e12, first_p
 /// trusted_above: after a local relaxation, λ is adapted only if the decrease is more than this fraction.
 constexpr double relaxed_below = 0.5, trusted_above = 0.8;
 
-/// If the decrease is below this fraction of the predicted decrease, the next λ is at least a quarter of that of the step,
-/// also if only the largest displacement had determined it.
+/// If the decrease is below this fraction of the predicted decrease, the next λ is at least a quarter of that of the
+/// step, also if only the largest displacement had determined it.
 constexpr double poor = 0.25;
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace isojam {
 
 namespace {
 
-/// The space is examined after every `vectors_at_once` vectors. It is complete if these raised the decrease by less than
-/// the fraction `complete`.
+/// The space is examined after every `vectors_at_once` vectors. It is complete if these raised the decrease by less
+/// than the fraction `complete`.
 constexpr int vectors_at_once = 8;
 constexpr double complete = 0.03;
 

@@ -17,8 +17,8 @@ struct ModelStep {
 };
 
 /// Quadratic model g·s + ½ s·M s of a function, projected onto a Krylov space. The space has the orthonormal basis Q
-/// that the vectors P⁻¹g, P⁻¹M q₁, P⁻¹M q₂, … span, where P is a preconditioner. With the eigenvalues E and eigenvectors
-/// U of Qᵀ M Q, the step for a shift λ is
+/// that the vectors P⁻¹g, P⁻¹M q₁, P⁻¹M q₂, … span, where P is a preconditioner. With the eigenvalues E and
+/// eigenvectors U of Qᵀ M Q, the step for a shift λ is
 ///   s = −Q U (|E| + λ)⁻¹ Uᵀ Qᵀ g.
 /// One space therefore gives the steps for all shifts. M may be indefinite: since |E| replaces E, the step then leads
 /// away from the saddle (saddle-free Newton method, Dauphin et al. 2014).

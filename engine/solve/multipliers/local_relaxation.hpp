@@ -9,8 +9,8 @@ namespace isojam {
 
 /// Flags the particles of contacts that the model of a step predicts wrongly, and all particles that touch these
 /// particles. `step` leads from `here` to `there`. The model of a contact is the second-order series of its
-/// contribution to the envelope Φ. The model is wrong if its error in `there` is more than 10 % of `predicted_decrease`,
-/// the decrease of Φ that the model predicts for the whole packing.
+/// contribution to the envelope Φ. The model is wrong if its error in `there` is more than 10 % of
+/// `predicted_decrease`, the decrease of Φ that the model predicts for the whole packing.
 std::vector<char> mispredicted(const EnvelopeState& here, const EnvelopeState& there, const Eigen::VectorXd& step,
                                double predicted_decrease);
 

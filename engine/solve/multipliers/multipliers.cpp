@@ -56,7 +56,8 @@ constexpr double plain_below = 0.1;
 
 constexpr double tangent_shift = 0.01;  ///< λ/k₀ for the tangent at the initial equilibrium
 
-/// Residual of a contact below which descent computes its shift by a series. It needs nearly half as many overlaps then.
+/// Residual of a contact below which descent computes its shift by a series. It needs nearly half as many overlaps
+/// then.
 constexpr double series_below = 1e-3;
 
 /// μ is renewed when |∇Φ| is below this fraction of the error of μ.
@@ -95,8 +96,8 @@ constexpr int most_nonrigid_states = 10;
 /// Limits far above the need of all states except those at the end of their solution branch, which slide a long way.
 constexpr double most_steps = 600, most_envelopes = 3000;
 
-/// A larger packing has more rearrangements in a strain step, and each of them limits the steps of the whole packing. The
-/// limits of the numbers of steps and renewals are therefore proportional to N above this N.
+/// A larger packing has more rearrangements in a strain step, and each of them limits the steps of the whole packing.
+/// The limits of the numbers of steps and renewals are therefore proportional to N above this N.
 constexpr double limits_hold_for = 400;
 
 /// True if the packing cannot be rigid (Maxwell): even with three constraints for every contact, as for two faces,

@@ -65,11 +65,11 @@ TEST(Messages, EveryErrorOfAManifestHasItsPartsInJson) {
 TEST(Messages, ProgressCountsFromZeroToAllReplicates) {
   const test::TemporaryDirectory here;
   test::write_text(here / "m.json", small_manifest().dump());
-  const auto text = shell("$ISOJAM run m.json -o text", here.path());
-  const auto json = shell("$ISOJAM run m.json -o json --messages json", here.path());
+  const auto text = shell("mkdir text && cd text && $ISOJAM run ../m.json -o r", here.path());
+  const auto json = shell("mkdir json && cd json && $ISOJAM run ../m.json -o r --messages json", here.path());
   EXPECT_EQ(json.exit_code, 0) << json.err;
   EXPECT_EQ(json.out, text.out);
-  EXPECT_EQ(test::results_below(here / "json"), test::results_below(here / "text"));
+  EXPECT_EQ(test::results_below(here / "json/r"), test::results_below(here / "text/r"));
   std::vector<Json> progress;
   for (const auto& message : objects(json.err)) {
     if (message.at("kind") == "progress") progress.push_back(message);

@@ -18,6 +18,7 @@
 
 #include "tasks/io/file.hpp"
 #include "tasks/io/parse.hpp"
+#include "tests/tasks/run/first_table.hpp"
 #include "tests/tasks/support/schema.hpp"
 #include "tests/tasks/support/support.hpp"
 
@@ -259,7 +260,7 @@ TEST_F(Batch, AggregateMakesTheSameTables) {
   const auto before = files_below(here_ / "results");
   const auto text = isojam({"aggregate", "results", "-o", "again.json"}, here_.path());
   EXPECT_EQ(text.exit_code, 0) << text.err;
-  EXPECT_EQ(text.out, finished_.out);
+  EXPECT_EQ(test::first_table(text.out), test::first_table(finished_.out));
   EXPECT_EQ(read_text((here_ / "again.json").string()), before.at("tables.json"));
   const auto json = isojam({"aggregate", "results", "results", "--format", "json"}, here_.path());
   EXPECT_EQ(json.out, before.at("tables.json")) << "a directory given twice counts once";

@@ -211,7 +211,7 @@ TEST(Base, RowsWithoutABaseHaveNoPairs) {
 TEST(Base, ManifestsPairWithinEach) {
   auto records = six();
   for (auto record : six()) {
-    record.manifest_digest = "another";
+    record.study = "another";
     record.values[index_of("phi_j")] = *record.values[index_of("phi_j")] + 5;
     records.push_back(record);
   }

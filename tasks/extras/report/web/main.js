@@ -27,7 +27,7 @@ function drawProvenance(data) {
   put('Seed', data.manifest.seed);
   put('Measures', data.measures.map(String).join(', ') || 'none besides the jamming density');
   if (data.addable.length > 0) {
-    const only = data.keeps_paths ? '' : ' (for the nearest states only, because "keep_path" was false)';
+    const only = data.keeps_paths ? '' : ' (only for the states nearest jamming, because "keep_path" was false)';
     put('Can be added', `${data.addable.join(', ')}; run "isojam measure DIR --add ${data.addable[0]}"${only}`);
   }
   for (const build of data.builds) {
