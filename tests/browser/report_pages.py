@@ -93,9 +93,10 @@ MOVED = {"Z": 0.2, "Z_ff": 0.1, "Z_ef": 0.1, "Z_l": 0.2, "C": 0.3, "energy_per_p
 
 
 def slim(value):
-    """A copy of a record with shorter lists of numbers, so that hundreds of records can be written quickly."""
+    """A copy of a record with shorter lists of numbers, so that hundreds of records can be written quickly. The lists of
+    a histogram of angles depend on each other, and stay as they are."""
     if isinstance(value, dict):
-        return {key: slim(part) for key, part in value.items()}
+        return {key: part if key == "angle_bins" else slim(part) for key, part in value.items()}
     if not isinstance(value, list):
         return value
     step = math.ceil(len(value) / 30) if value and isinstance(value[0], (str, int)) else 1
