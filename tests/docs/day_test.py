@@ -1,6 +1,6 @@
 """Tests the first day of a user as one story. usage: day_test.py PROGRAM MODULE
 
-- A study of one's own is validated and run. A sweep that grows keeps the finished replicates.
+- A new study is validated and run. A sweep that grows keeps the finished replicates.
 - A measure that was forgotten is added without the states of the decompression, and the tables say so.
 - Cubes reach the target energy with the defaults.
 - A stopping rule ends a study, and the tables state how far its goal was reached.
