@@ -46,8 +46,8 @@ struct ShapePair {
 
 /// Result of analyse_contacts(). If particles have several shapes, `pairs` contains the cut-offs of each pair of
 /// shapes, and the members of the base class summarise them. The critical angles are then the smallest of all pairs.
-/// Each fit and each gap is that of the least conclusive pair of shapes: first a pair without a cut-off, then a pair
-/// with a doubtful fit, then any pair.
+/// Each fit and each gap is that of one pair of shapes: a pair without a cut-off if there is one, otherwise a pair with
+/// a doubtful fit, otherwise any pair.
 struct ContactAnalysis : ClassCutoffs {
   std::vector<ShapePair> pairs;  ///< pairs of shapes that have contacts; empty if there is only one shape
   /// Number of packings whose angles were combined for the fits and gaps; 1 if the angles are those of this packing

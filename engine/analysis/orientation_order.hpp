@@ -54,8 +54,8 @@ struct Order {
   double random_local_S = 0;
 };
 
-/// Values of S and local_S above which a packing is called crystalline. They depend on the rank l, that is, on the
-/// symmetry of the solid, see docs/theory.md for the packings from which they were calibrated.
+/// Values of S and local_S above which a packing is called crystalline. They depend on the rank l, and therefore on the
+/// symmetry of the solid. docs/results.md describes the packings with which they were chosen.
 struct OrderLimits {
   double S = 0, local_S = 0;
 };

@@ -38,9 +38,9 @@ struct IncipientContact {
   /// Tangent in the closed state, as a function of a step from the present state. If the pair has a gap, `at_rest` is
   /// negative. The tangent is zero if the pair does not touch in the closed state.
   LinearisedOverlap closed;
-  /// Stiffness matrix of a flat contact against relative_rotation(), in units of Y·V_p^(1/3), if the line in which the
-  /// two face planes intersect goes through the centre of the contact. The stiffness is |S|³/(50 R_a R_b) for all axes
-  /// in the plane of the faces, and 0 for the normal of this plane. S is the larger vector area of the present and the
+  /// Stiffness matrix against relative_rotation(), in units of Y·V_p^(1/3). It is that of a flat contact whose two face
+  /// planes intersect in a line through the centre of the contact. The stiffness is |S|³/(50 R_a R_b) for all axes in
+  /// the plane of the faces, and 0 for the normal of this plane. S is the larger vector area of the present and the
   /// closed state. The matrix is computed for every pair, but a pair has this stiffness only if the line crosses the
   /// faces. Otherwise V is linear in such a rotation, and the Hessian of the present state does not contain the
   /// stiffness.

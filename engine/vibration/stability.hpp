@@ -25,7 +25,7 @@ inline constexpr std::array enum_names<Verdict>{
     EnumName{Verdict::marginal, "marginal"}, EnumName{Verdict::unstable, "unstable"},
     EnumName{Verdict::undetermined, "undetermined"}};
 
-/// A near-rattler: a particle that its contacts possibly do not constrain.
+/// A near-rattler: a particle that is possibly not constrained by its contacts.
 struct NearRattler {
   /// Reason for the classification.
   enum class Reason {

@@ -11,7 +11,7 @@
 
 namespace isojam {
 
-/// Prints the warnings_of() a manifest. `file` is the name of the manifest in these warnings.
+/// Prints the warnings that warnings_of() returns for a manifest. `file` is the name of the manifest in these warnings.
 void warn_about(const Manifest& manifest, const std::string& file, Console& console);
 
 /// One line for each user-defined solid, see definition_text().
@@ -23,7 +23,8 @@ void warn_about_kernels(Console& console);
 /// One line of text about the latest strain step of a replicate.
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress);
 
-/// The word of messages for a stage, which manifests and records call consolidation or expansion.
+/// Name of a stage in messages: compression or decompression. Manifests and records call these stages consolidation and
+/// expansion.
 std::string_view stage_text(std::string_view stage);
 
 /// Names of all records in a directory. Throws FileError if there are none.
@@ -32,7 +33,7 @@ std::vector<std::string> recorded_names(const std::string& directory);
 /// text such as "../x" cannot become part of a path.
 std::string recorded_name(const std::string& directory, const std::string& name);
 
-/// Throws a FileError that no record has this name. It suggests the most similar name in `names`.
+/// Throws a FileError which states that no record has this name. It suggests the most similar name in `names`.
 [[noreturn]] void throw_unknown_replicate(const std::string& directory, const std::string& name,
                                           const std::vector<std::string>& names);
 

@@ -52,7 +52,7 @@ class Console {
   void finished(double work, bool failed);
   /// Shows the progress of the round and the text `what`, or only `what` before the first begin(). On a terminal it
   /// redraws a progress bar that is not wider than the terminal. Otherwise it prints a line. It does nothing if the
-  /// last output was less than 0.1 s ago; for lines of text, less than 5 s ago.
+  /// last output was less than 0.1 s ago. For lines of text, this time is 5 s.
   void tick(std::string_view what);
   /// Ends the round: removes the progress bar, or prints the final progress as JSON.
   void end();

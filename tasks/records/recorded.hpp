@@ -28,9 +28,9 @@ RecordedReplicate read_record(const std::filesystem::path& directory, const std:
 /// may be empty, except histograms of angles.
 RecordedReplicate read_abridged_record(const std::filesystem::path& directory, const std::string& name);
 
-/// True if the record has the result that this plan requests, apart from measures. Either the identity() of the
-/// manifest of the record differs only in the measures, or the sweep has changed since, but not the seed and the
-/// specification of this replicate.
+/// True if the record has the result that this plan requests, apart from measures. This is the case if the identity()
+/// of its manifest and that of the plan differ at most in the measures. It is also the case if only the sweep has
+/// changed, and the seed and the specification of this replicate are the same.
 bool is_of(const RecordedReplicate& replicate, const Plan& plan);
 /// True if the replicate failed and the plan has other settings for it, so that it must be computed again.
 bool is_superseded(const RecordedReplicate& replicate, const Plan& plan);

@@ -34,7 +34,8 @@ struct RecordSummary {
   int replicate = 0;
   std::string manifest_digest;
   /// Identifies the study whose replicates are compared with each other: the digest of the manifest of the directory,
-  /// or manifest_digest if the directory has no manifest. The two differ for records from before the sweep grew.
+  /// or manifest_digest if the directory has no manifest. The two differ if the sweep was enlarged after the record was
+  /// made.
   std::string study;
   /// The digests of a record before measures were added, and the build that added them.
   struct Before {

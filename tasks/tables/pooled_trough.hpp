@@ -20,7 +20,8 @@ class PackedAngles {
   AngleHistogram unpacked() const;
 
  private:
-  /// A number of contacts by one angle or by both. The bin of the other angle is then `any`.
+  /// Number of contacts in a bin of θ_ff, in a bin of θ_ef, or in a bin of both. In the first two cases, the bin of the
+  /// other angle is `any`.
   struct Entry {
     std::uint8_t face_face, edge_face;
     float contacts;
@@ -43,8 +44,8 @@ struct PooledTrough {
   std::array<Estimate, 6> estimates = {};
 };
 
-/// Finds the troughs of `packings`, which have the same number of particles. nullopt if there are none. `key` is the
-/// text from which the random numbers of the bootstrap are derived.
+/// Finds the troughs of `packings`, which have the same number of particles. nullopt if `packings` is empty. `key` is
+/// the text from which the random numbers of the bootstrap are derived.
 std::optional<PooledTrough> pooled_trough(const std::vector<const PackedAngles*>& packings, int particles,
                                           const std::string& key);
 

@@ -10,15 +10,15 @@ namespace isojam {
 
 /// Progress of a sweep point towards its goal.
 struct Advance {
-  /// number of replicates that must be recorded before the rule is checked again, or at which the rule ended
+  /// number of replicates at the next check of the rule; if `finished`, at the last check
   int wanted = 0;
   /// true if no more replicates are needed: the goal or the largest number of replicates is reached, or none of the
   /// first `min` replicates has a value
   bool finished = false;
   bool met = false;                  ///< true if the goal is reached; false if there is no goal
   std::optional<double> half_width;  ///< half width of the confidence interval after the last complete batch
-  /// Values at the first check with at least two different values. Stein's interval uses their standard deviation.
-  /// Empty if the quantity is a proportion, or if there is no goal.
+  /// Values at the first check at which they are not all equal. Stein's interval uses their standard deviation. Empty
+  /// if the quantity is a proportion, or if there is no goal.
   std::vector<double> first;
 };
 

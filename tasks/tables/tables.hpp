@@ -24,7 +24,8 @@ enum class View : std::uint8_t { nearest, series };
 struct TextOptions {
   bool all = true;          ///< print all tables; otherwise the first one, the goal, the differences and `measures`
   std::size_t columns = 0;  ///< largest width in characters; 0: no limit
-  /// command that prints all tables, for the line that names the tables which are not printed; empty: no such line
+  /// command that prints all tables. If some tables are not printed, a line names them and this command. If the command
+  /// is empty, there is no such line.
   std::string how_to_see_all = {};
   std::vector<Measure> measures = {};  ///< measures whose tables are printed even if `all` is false
 };
@@ -38,9 +39,9 @@ std::string to_text(const Table& table, View view = View::nearest, const TextOpt
 
 /// The tables as CSV. Each row, or each point of a series, has one to three lines; the column `over` distinguishes
 /// them. The line `kept` is for the replicates that are not excluded. The line `all` includes the excluded replicates;
-/// it is missing if there are none. The line `difference` has the paired differences from the base row; it is missing
-/// if there are none, and in series. Each quantity has columns for mean, low and high end of the 95 % confidence
-/// interval, sd, n, and low and high end of the bootstrap interval. A field without a value is empty.
+/// it is missing if there are none. The line `difference` has the paired differences from the base row. It is missing
+/// if there are none, and for points of a series. Each quantity has columns for mean, low and high end of the 95 %
+/// confidence interval, sd, n, and low and high end of the bootstrap interval. A field without a value is empty.
 std::string to_csv(const Table& table, View view = View::nearest);
 /// The same lines, but with a separate line for each quantity. An additional column contains the name of the quantity.
 std::string to_long_csv(const Table& table, View view = View::nearest);

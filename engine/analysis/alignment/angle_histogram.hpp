@@ -38,9 +38,9 @@ struct AngleHistogram {
   int face_face_window = 0, edge_face_window = 0;
 
   double contacts() const;  ///< number of all contacts
-  /// Adds `weight` times another histogram. The windows are then the smaller ones.
+  /// Adds `weight` times another histogram. Each window is then the smaller of the two.
   void add(const AngleHistogram& other, double weight = 1);
-  /// Numbers of contacts by θ_ef, of contacts with θ_ff in bin `face_face_bins` or above. Requires face_face_bins ≤
+  /// Counts the contacts with θ_ff in bin `face_face_bins` or above, in bins of θ_ef. Requires face_face_bins ≤
   /// face_face_window. With face_face_bins = 0, the numbers are those of all contacts.
   std::vector<double> edge_face_of_others(int face_face_bins) const;
 };

@@ -44,9 +44,10 @@ struct CdfFit {
   /// from the true distribution by more than 1.358/√n. A curve that is fitted to the angles is nearer to c than the
   /// true distribution, so it exceeds this limit in fewer than 5 %.
   double deviation = 0;
-  /// Cut-off θ_cut in radians, defined by c(θ_cut) = a_0. Because c is a step function, the cut-off is the end of the
-  /// step whose value is nearest to a_0, and at most `upper`. The fraction of angles below θ_cut therefore differs from
-  /// a_0 by at most half a step. `cutoff` is 0 if no cut-off was found.
+  /// Cut-off θ_cut in radians, defined by c(θ_cut) = a_0. c is a step function, which is constant between successive
+  /// angles. The cut-off is the upper end of the interval on which c is nearest to a_0, and at most `upper`. The
+  /// fraction of angles below θ_cut therefore differs from a_0 by at most half a step. `cutoff` is 0 if no cut-off was
+  /// found.
   double cutoff = 0;
 
   /// True if a cut-off was found, even if it is doubtful.

@@ -47,8 +47,8 @@ struct Overlap {
 ///   S_A = ½ Σ_C v×w
 ///   M_A = −½ Σ_C (w−v)(|v|² + v·w + |w|²)/3
 ///   V   = Σ_f ∫_f h n_P·n_f dA  over the faces f of the intersection, h the height over the least-penetrated plane P
-///       = (1/6) Σ n_P·((v−o)×(w−o)) (h_o+h_v+h_w)  over its edges, for the face left of the edge − the same for the
-///         right, o a vertex of the face
+///       = (1/6) Σ [t(left) − t(right)]  over its edges v → w, each with the faces to its left and right;
+///         t(f) = n_P·((v−o)×(w−o)) (h_o+h_v+h_w), where o is a vertex of the face f
 /// Heights are interpolated between the distances of vertices from planes, which are stored in a table; they are never
 /// computed from coordinates. Heights are 0 on P and small near P. For a face-face contact of any depth, V is therefore
 /// as accurate as the table. If the loop is not closed, or if a vertex lies on a face plane within rounding errors,
@@ -60,7 +60,7 @@ struct Overlap {
 /// longer than wide. This is the case if an edge lies in a face within a tilt as small as the depth. The coordinates
 /// along the edge then have rounding errors that are large relative to the width, and the bound is
 ///   1e-12 + 16 ε √(V_s/V), ε = 2.2e-16, V_s the volume of the smaller solid.
-/// The median of the errors is at most 1e-13, and at most 1e-15 for contacts with V < 1e-8 that are no such strips. The
+/// The median of the errors is at most 1e-13. Without such narrow intersections, it is at most 1e-15 for V < 1e-8. The
 /// error of M is relative to |S| times the inradius.
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis);
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, SeparatingAxis& axis);

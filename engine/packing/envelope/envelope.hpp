@@ -76,8 +76,8 @@ class EnvelopeEnergy {
   std::vector<Pose> poses_;  ///< poses from which placed_ was computed
 };
 
-/// The contribution of the pairs with a flagged particle to `whole`. `whole` must be an evaluation of all pairs. The
-/// result is the same as that of evaluate() with the flags `only`.
+/// The part of `whole` that the pairs with a flagged particle contribute. `whole` must be an evaluation of all pairs.
+/// The result is the same as that of evaluate() with the flags `only`.
 EnvelopeEvaluation part_of(const EnvelopeEvaluation& whole, std::span<const char> only);
 
 /// The evaluation of all pairs of a packing in which only flagged particles have moved since the evaluation `before`.

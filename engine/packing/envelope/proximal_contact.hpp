@@ -26,9 +26,9 @@ namespace isojam {
 struct ProximalTerms {
   Vector6d multiplier = Vector6d::Zero();  ///< multiplier μ
   double stiffness = 0;                    ///< stiffness ρ > 0, in units of Y·V_p^(1/3)
-  /// If the residual |∇F| / (|∇e| + |μ|) is below this, the last Newton step for w takes the value and the gradients
-  /// from the Taylor series about the last overlap instead of from another overlap. Their relative errors are of the
-  /// order of the square of this number.
+  /// Let F(w) be the function in the brackets above. If its residual |∇F| / (|∇e| + |μ|) is below this number, Newton's
+  /// method makes one more step and computes no further overlap. The value and the gradients then follow from the
+  /// Taylor series about the last overlap. Their relative errors are of the order of the square of this number.
   double series_below = 0;
 };
 

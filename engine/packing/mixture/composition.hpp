@@ -25,7 +25,7 @@ struct Particle {
 class Composition {
  public:
   /// N identical particles of unit volume, for any N. The solid must outlive all copies of the composition.
-  Composition(const ConvexSolid& solid) : one_(&solid) {}  // NOLINT(google-explicit-constructor): one solid is one
+  Composition(const ConvexSolid& solid) : one_(&solid) {}  // NOLINT(google-explicit-constructor): one solid suffices
   /// Particles from a list with at least one element.
   explicit Composition(std::span<const Particle> particles);
 

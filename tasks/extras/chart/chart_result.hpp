@@ -15,7 +15,7 @@ struct ChartAtlas {
   std::vector<AtlasRow> rows;
 };
 
-/// CPU time of a part of a chart, including work that is not timed for points.
+/// CPU time of a part of a chart. It includes work that no point of the chart contains, such as making the packings.
 struct PartCost {
   std::string part;  ///< name of a comparison; or "packings" or "equilibria", which several comparisons use
   double cpu_seconds = 0;

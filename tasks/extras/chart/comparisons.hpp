@@ -12,7 +12,7 @@ namespace isojam {
 /// Number of modes that compare_modes() computes with each solver.
 inline constexpr int modes_compared = 50;
 
-/// The families of a comparison without points: their names, errors and notes. Empty for the atlas.
+/// The families of a comparison, with names, errors and notes, but without points. Empty for the atlas.
 std::vector<ChartFamily> empty_families(Comparison comparison);
 
 // Each comparison except the atlas has one function, which adds points to the families of the comparison. After the

@@ -38,9 +38,9 @@ std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& 
 /// - Six integers for each contact, one contact after another: a, b, the force in thousandths of the largest force, and
 ///   the point of application relative to the centre of a, in hundredths (lab frame). The largest force is given in
 ///   units of Y·V_p^(2/3).
-/// - Modes: `modes` of them at each end of the spectrum; `modes` may be 0. A mode has its frequency ω and the
-///   displacements (x, θ) of each particle in the lab frame. These are scaled so that the component with the largest
-///   magnitude is ±1. If the eigenvalue is not positive, ω is null.
+/// - The modes at both ends of the spectrum. Their number at each end is `modes`, which may be 0. A mode has its
+///   frequency ω and the displacements (x, θ) of each particle in the lab frame. These are scaled so that the component
+///   with the largest magnitude is ±1. If the eigenvalue is not positive, ω is null.
 ///
 /// Missing values are null.
 Json packing_view(const Packing& packing, int modes);

@@ -23,10 +23,11 @@ QuadQuaternion operator*(const QuadQuaternion& p, const QuadQuaternion& q);
 /// so that rounding does not destroy the designed contact.
 struct ConstructedPair {
   Pose at_a, at_b;
-  /// V in closed form if there is one; otherwise from clipping in quadruple precision, as S_A
+  /// V and S_A by clipping in quadruple precision. If V has a closed form, V is computed from it instead.
   VolumeAndArea reference;
   SolidKind a, b;
-  bool closed_form = false;  ///< true if V has a closed form; S is discontinuous in some of these designs
+  /// true if V has a closed form; S_A is then not compared, because it is discontinuous for some designs
+  bool closed_form = false;
 };
 
 /// Design of a pair. A is at the origin and rotated by `turn_a`, and B is at r and rotated by `turn_b`. Then the pair
