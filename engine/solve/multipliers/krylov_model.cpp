@@ -12,7 +12,7 @@ namespace {
 
 /// The space is examined after every `vectors_at_once` vectors. It is complete if these raised the decrease by less
 /// than the fraction `complete`.
-constexpr int vectors_at_once = 8;
+constexpr int vectors_at_once = 4;
 constexpr double complete = 0.03;
 
 /// A vector of which only this fraction remains when its components along the basis are subtracted is rounding error.
