@@ -12,6 +12,7 @@ namespace isojam {
 namespace {
 
 constexpr double neighbours_in_crystal = 26, greatest_density = 2;
+constexpr int evaluations_of_tetrahedra = 2000;
 
 /// Reads the parameters of one solid.
 Json read_values(const JsonPlace& root, const JsonPlace& place) {
@@ -36,16 +37,19 @@ Json read_values(const JsonPlace& root, const JsonPlace& place) {
   return values;
 }
 
+/// True if the sweep has this solid and the manifest gives no value of the parameter for it.
+bool is_free(const JsonPlace& root, const Manifest& manifest, SolidKind kind, const std::string& key) {
+  const bool is_swept =
+      std::find(manifest.solids.begin(), manifest.solids.end(), Mixture(kind)) != manifest.solids.end();
+  if (!is_swept || root.at("sweep").has(key) || (root.has("protocol") && root.at("protocol").has(key))) return false;
+  const auto own = manifest.by_solid.find(to_string(kind));
+  return own == manifest.by_solid.end() || !own->second.contains(key);
+}
+
 /// Cubes order during compression. A crystal can exceed the usual limit long before it has the target energy.
 void put_limit_of_cubes(const JsonPlace& root, Manifest& manifest) {
-  const std::string key = "max_density";
   const Mixture cube = SolidKind::cube;
-  const bool is_swept = std::find(manifest.solids.begin(), manifest.solids.end(), cube) != manifest.solids.end();
-  const bool is_given = root.at("sweep").has(key) || (root.has("protocol") && root.at("protocol").has(key));
-  if (!is_swept || is_given) return;
-  const std::string name(to_string(cube));
-  auto& own = manifest.by_solid[name];
-  if (own.contains(key)) return;
+  if (!is_free(root, manifest, SolidKind::cube, "max_density")) return;
   auto options = options_of(manifest, {Json::object(), manifest.protocol}, cube);
   for (const auto& swept : manifest.swept) {
     if (swept.name == "target_energy" || swept.name == "consolidation_step")
@@ -55,8 +59,14 @@ void put_limit_of_cubes(const JsonPlace& root, Manifest& manifest) {
   // In a smaller cell, a particle could touch two images of another one at this density.
   const bool fits = std::all_of(manifest.particles.begin(), manifest.particles.end(),
                                 [&](int particles) { return particles >= least_particles(cube, limit); });
-  if (fits) own[key] = limit;
-  if (own.empty()) manifest.by_solid.erase(name);
+  if (fits) manifest.by_solid[std::string(to_string(cube))]["max_density"] = limit;
+}
+
+/// φ_J of tetrahedra depends on how completely the states of the compression are relaxed (docs/protocol.md).
+void put_relaxation_of_tetrahedra(const JsonPlace& root, Manifest& manifest) {
+  const std::string key = "consolidation_evaluations";
+  if (!is_free(root, manifest, SolidKind::tetrahedron, key)) return;
+  manifest.by_solid[std::string(to_string(SolidKind::tetrahedron))][key] = evaluations_of_tetrahedra;
 }
 
 }  // namespace
@@ -85,6 +95,7 @@ void read_by_solid(const JsonPlace& root, Manifest& manifest) {
     });
   }
   put_limit_of_cubes(root, manifest);
+  put_relaxation_of_tetrahedra(root, manifest);
 }
 
 std::vector<OptionSet> option_sets(const Manifest& manifest) {

@@ -3,6 +3,7 @@
 // - Without them and without cubes, the canonical form has no such key, so earlier digests stay.
 // - Cubes have a larger max_density by default, which is above the density of a crystal with the target energy. A given
 //   or swept max_density takes precedence. In a small cell, the usual limit stays.
+// - Compression relaxes tetrahedra with more evaluations by default. A given or swept value takes precedence.
 // - Unknown solids, unknown and swept parameters, and values that contradict each other are refused.
 
 #include "tasks/manifest/by_solid.hpp"
@@ -69,6 +70,24 @@ TEST(BySolid, CubesHaveALimitAboveThatOfCrystals) {
   auto swept = manifest_of(both, Json::object());
   swept["sweep"]["max_density"] = {0.9, 0.93};
   EXPECT_EQ(limit_of(parsed(swept), 1), 0.93);
+}
+
+TEST(BySolid, TetrahedraAreRelaxedWithMoreEvaluations) {
+  const auto evaluations = [](const Manifest& manifest, std::size_t point) {
+    return Plan(manifest).at(point, 0).options.compression.evaluations;
+  };
+  const Json both{"octahedron", "tetrahedron"};
+  const std::string key = "consolidation_evaluations";
+  const auto manifest = parsed(manifest_of(both, Json::object()));
+  EXPECT_EQ(evaluations(manifest, 0), JamOptions{}.compression.evaluations);
+  EXPECT_EQ(evaluations(manifest, 1), 2000);
+  EXPECT_EQ(digest(parsed(to_json(manifest))), digest(manifest));
+  for (const auto& given : {parsed(manifest_of(both, {{key, 700}})),
+                            parsed(manifest_of(both, {{"by_solid", {{"tetrahedron", {{key, 700}}}}}}))})
+    EXPECT_EQ(evaluations(given, 1), 700);
+  auto swept = manifest_of(both, Json::object());
+  swept["sweep"][key] = {100, 200};
+  EXPECT_EQ(evaluations(parsed(swept), 3), 200);
 }
 
 TEST(BySolid, RefusesWhatHasNoMeaning) {
