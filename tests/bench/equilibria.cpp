@@ -3,8 +3,8 @@
 //   isojam_equilibria states N SEEDS [newton]
 //     Every expansion step of 35 % and one of 3 % from the same state, for the four solids of the paper. With `newton`
 //     also by Newton's method, and whether the energies agree.
-//   isojam_equilibria law N...
-//     Whole replicates of octahedra to Δφ = 0.005: cost as a function of N.
+//   isojam_equilibria law N[:STATES]...
+//     Whole replicates of octahedra to Δφ = 0.005, or to the given number of states: cost as a function of N.
 //
 // One thread, from φ = 0.05; seeds 1 … SEEDS; times are CPU seconds.
 
@@ -160,32 +160,51 @@ double peak_gib() {
   return static_cast<double>(usage.ru_maxrss) / (1024 * 1024);
 }
 
-void law(const std::vector<int>& sizes) {
-  std::printf("%6s %10s %7s %8s %8s %10s %10s %9s  %s\n", "N", "φ_J", "states", "Hessians", "local", "expand s",
-              "in all s", "peak GiB", "ended");
+/// A packing whose cost is measured.
+struct Task {
+  int particles = 0;
+  std::size_t states = 0;  ///< decompression ends after so many states; 0: at final_distance
+};
+
+/// CPU seconds of both stages of a replicate.
+struct StageTimes {
+  double compression = 0, decompression = 0;
+};
+
+JamProgress jammed(const Task& task, StageTimes& times) {
+  JamOptions options;
+  options.decompression.final_distance = final_distance;
+  JamProgress progress = begin_jam(placed(SolidKind::octahedron, task.particles, 1, options), options);
+  while (!progress.ended() && (task.states == 0 || progress.result.states.size() < task.states)) {
+    const double before = now();
+    double& sum = progress.stage == JamStage::expansion ? times.decompression : times.compression;
+    advance(progress, options);
+    sum += now() - before;
+  }
+  return progress;
+}
+
+void law(const std::vector<Task>& tasks) {
+  std::printf("%6s %8s %6s %8s %10s %8s %8s %11s %13s %8s %8s  %s\n", "N", "φ_J", "states", "Hessians", "incomplete",
+              "complete", "local", "compression", "decompression", "s in all", "peak GiB", "ended");
   std::vector<double> n, seconds;
-  for (const int size : sizes) {
-    JamOptions options;
-    options.decompression.final_distance = final_distance;
-    JamProgress progress = begin_jam(placed(SolidKind::octahedron, size, 1, options), options);
-    const double begin = now();
-    double expanding = 0;
-    while (!progress.ended()) {
-      const double before = now();
-      const bool expands = progress.stage == JamStage::expansion;
-      advance(progress, options);
-      if (expands) expanding += now() - before;
-    }
+  for (const Task& task : tasks) {
+    StageTimes times;
+    const JamProgress progress = jammed(task, times);
     const JamResult& result = progress.result;
-    std::printf("%6d %10.5f %7zu %8ld %8ld %10.1f %10.1f %9.2f  %s\n", size, result.phi_j ? result.phi_j->density : 0,
-                result.states.size(), result.work.hessians, result.work.local_factorisations, expanding, now() - begin,
-                peak_gib(), to_string(result.status).data());
+    const MinimiseWork& work = result.work;
+    std::printf("%6d %7.5f %6zu %8ld %10ld %8ld %8ld %11.1f %13.1f %8.1f %8.2f  %s\n", task.particles,
+                result.phi_j ? result.phi_j->density : 0, result.states.size(), work.hessians,
+                work.incomplete_factorisations, work.factorisations, work.local_factorisations, times.compression,
+                times.decompression, times.compression + times.decompression, peak_gib(),
+                progress.ended() ? to_string(result.status).data() : "by the number of states");
     std::fflush(stdout);
+    if (task.states > 0) continue;
     if (!n.empty())
-      std::printf("%6s exponent from N = %.0f: %.2f\n", "", n.back(),
-                  std::log(expanding / seconds.back()) / std::log(size / n.back()));
-    n.push_back(size);
-    seconds.push_back(expanding);
+      std::printf("%6s exponent of the decompression from N = %.0f: %.2f\n", "", n.back(),
+                  std::log(times.decompression / seconds.back()) / std::log(task.particles / n.back()));
+    n.push_back(task.particles);
+    seconds.push_back(times.decompression);
   }
 }
 
@@ -195,18 +214,27 @@ int number(const std::string& text) {
   return std::to_string(value) == text ? value : 0;
 }
 
+/// The task in a text N or N:STATES; N is 0 if the text is neither.
+Task task_in(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) return {number(text), 0};
+  const int states = number(text.substr(colon + 1));
+  return states > 0 ? Task{number(text.substr(0, colon)), static_cast<std::size_t>(states)} : Task{};
+}
+
 int run(const std::vector<std::string>& arguments) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-  std::vector<int> numbers;
   const bool newton = arguments.size() == 4 && arguments[3] == "newton";
-  for (std::size_t k = 1; k < arguments.size() - newton; ++k) numbers.push_back(number(arguments[k]));
-  const bool valid = !numbers.empty() && *std::min_element(numbers.begin(), numbers.end()) > 0;
-  if (valid && arguments[0] == "states" && numbers.size() == 2) {
-    states(numbers[0], numbers[1], newton);
+  std::vector<Task> tasks;
+  for (std::size_t k = 1; k < arguments.size() - newton; ++k) tasks.push_back(task_in(arguments[k]));
+  const bool valid =
+      !tasks.empty() && std::all_of(tasks.begin(), tasks.end(), [](const Task& task) { return task.particles > 0; });
+  if (valid && arguments[0] == "states" && tasks.size() == 2) {
+    states(tasks[0].particles, tasks[1].particles, newton);
   } else if (valid && arguments[0] == "law") {
-    law(numbers);
+    law(tasks);
   } else {
-    std::fprintf(stderr, "usage: isojam_equilibria states N SEEDS [newton] | isojam_equilibria law N...\n");
+    std::fprintf(stderr, "usage: isojam_equilibria states N SEEDS [newton] | isojam_equilibria law N[:STATES]...\n");
     return 2;
   }
   return 0;
