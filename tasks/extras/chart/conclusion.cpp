@@ -95,7 +95,7 @@ std::string readable(std::string method) {
   return method;
 }
 
-/// States which methods arrive at a residual in all cases.
+/// States which methods reach a residual in all cases.
 std::string arrival_text(const std::vector<Standing>& order, double residual) {
   const int cases = std::max_element(order.begin(), order.end(), [](const auto& a, const auto& b) {
                       return a.tasks < b.tasks;
@@ -104,16 +104,16 @@ std::string arrival_text(const std::vector<Standing>& order, double residual) {
   for (const Standing& each : order) {
     if (each.reached == cases) all.push_back(readable(each.method));
   }
-  const auto aim = fmt::format("To a residual of {:g}, ", residual);
+  const auto reached = fmt::format("The residual {:g} is reached", residual);
   const auto in_all = cases == 1 ? std::string("in the only case") : fmt::format("in all {} cases", cases);
   const Standing& first = order.front();
-  if (first.reached == 0) return fmt::format("{}no method arrives in any case.", aim);
+  if (first.reached == 0) return fmt::format("{} by no method in any case.", reached);
   if (all.empty()) {
-    return fmt::format("{}no method arrives {}; {} arrives in the most, {} of {}.", aim, in_all, readable(first.method),
-                       first.reached, first.tasks);
+    return fmt::format("{} by no method {}; {} reaches it in the most, {} of {}.", reached, in_all,
+                       readable(first.method), first.reached, first.tasks);
   }
-  if (all.size() == order.size() && all.size() > 1) return fmt::format("{}all methods arrive {}.", aim, in_all);
-  return fmt::format("{}only {} {} {}.", aim, list_text(all), all.size() == 1 ? "arrives" : "arrive", in_all);
+  if (all.size() == order.size() && all.size() > 1) return fmt::format("{} by all methods {}.", reached, in_all);
+  return fmt::format("{} {} only by {}.", reached, in_all, list_text(all));
 }
 
 using Names = std::vector<std::string>;

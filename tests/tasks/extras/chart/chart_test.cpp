@@ -177,9 +177,10 @@ TEST(ChartConclusion, IsInSentencesAboutTheRequestedResiduals) {
   bias.setting = "energy change 1e-12";
   const auto lines = conclusion(made_up_equilibrium(), std::vector{bias});
   const std::vector<std::string> expected{
-      "To a residual of 1e-06, only newton and fire arrive in all 2 cases. The fastest method is lbfgs in 1 of 2 cases "
+      "The residual 1e-06 is reached in all 2 cases only by newton and fire. The fastest method is lbfgs in 1 of 2 "
+      "cases "
       "and newton in 1. It is missed by lbfgs in 1 of 2 cases.",
-      "To a residual of 1e-09, no method arrives in all 2 cases; newton arrives in the most, 1 of 2. newton is the "
+      "The residual 1e-09 is reached by no method in all 2 cases; newton reaches it in the most, 1 of 2. newton is the "
       "fastest in all of them. It is missed by lbfgs in 2 of 2 cases, fire in 1 and newton in 1.",
       "The paper's rule stops a minimisation at energy changes below 1e-12. It stops in 1 of 1 cases, with residuals "
       "up to 0.2 and errors of phi_J up to 0.004."};
@@ -187,9 +188,10 @@ TEST(ChartConclusion, IsInSentencesAboutTheRequestedResiduals) {
   EXPECT_EQ(conclusion({}, {}), std::vector<std::string>{"No minimiser was measured."});
   auto hopeless = made_up("a", "fire", 1, 0.5, true);
   hopeless.setting = "residual 1e-03";
-  EXPECT_EQ(conclusion(std::vector{hopeless}, {}),
-            std::vector<std::string>{"To a residual of 0.001, no method arrives in any case. It is missed by fire in 1 "
-                                     "of 1 cases."});
+  EXPECT_EQ(
+      conclusion(std::vector{hopeless}, {}),
+      std::vector<std::string>{"The residual 0.001 is reached by no method in any case. It is missed by fire in 1 "
+                               "of 1 cases."});
 }
 
 TEST(ChartConclusion, StatesWhereAMethodIsFasterOrFails) {
@@ -205,7 +207,8 @@ TEST(ChartConclusion, StatesWhereAMethodIsFasterOrFails) {
   }
   for (ChartPoint& point : points) point.setting = "residual 1e-06";
   const std::string expected =
-      "To a residual of 1e-06, only multipliers and newton arrive in all 6 cases. The fastest method is newton in 4 of "
+      "The residual 1e-06 is reached in all 6 cases only by multipliers and newton. The fastest method is newton in 4 "
+      "of "
       "6 cases at Δφ ≥ 0.03 and multipliers in 2 at Δφ ≤ 0.01. It is missed by conjugate gradient in 4 of 6 cases at "
       "Δφ ≤ 0.03.";
   EXPECT_EQ(conclusion(points, {}), std::vector<std::string>{expected});
