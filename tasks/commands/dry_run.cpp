@@ -64,7 +64,8 @@ ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& 
                         manifest.replicates.goal->quantity, manifest.replicates.goal->half_width);
   if (survey.lacking > 0)
     text += fmt::format(
-        "  {} without measures added later; run \"isojam measure {}\" to add them, or they are recomputed\n",
+        "  {} without measures that were added later; run \"isojam measure {}\" to add them, otherwise \"isojam run\" "
+        "recomputes these replicates\n",
         counted(static_cast<std::size_t>(survey.lacking), "record"), directory);
   const int shards = arguments.shard.count;
   const double share = 1.0 / threads / shards;

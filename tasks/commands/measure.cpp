@@ -113,7 +113,7 @@ ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
 
 void add_measure(CLI::App& app, Session& session) {
   MeasureArguments* arguments = nullptr;
-  auto options = add_command(app, session, "measure", "Add measures to the records of a study that kept its paths",
+  auto options = add_command(app, session, "measure", "Add measures to the records of a study",
                              measure_stored, arguments);
   options.results_directory(arguments->directory);
   options.parsed(

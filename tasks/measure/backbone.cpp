@@ -10,7 +10,7 @@ namespace {
 // Measures the packing without its near-rattlers: contacts, modes, bulk modulus and rank of the remaining particles. In
 // the whole packing, a single near-rattler can make modes and moduli undefined.
 
-constexpr QuantityGroup group{"backbone", "The packing without rattlers: contacts, vibrations and constraints."};
+constexpr QuantityGroup group{"backbone", "The packing without near-rattlers: contacts, vibrations and constraints."};
 constexpr std::string_view frequency = "V_p^(-1/3) sqrt(Y/ρ)";
 constexpr Quantity removed{"backbone_removed", "/backbone/removed", group, "1", "n_{removed}"};
 constexpr Quantity Z{"backbone_Z", "/backbone/Z", group, "per particle", "Z^{bb}"};

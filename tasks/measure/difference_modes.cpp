@@ -13,7 +13,7 @@ namespace {
 // them, this measure uses the relaxed states too.
 
 constexpr QuantityGroup group{"modes by central differences",
-                              "Share of negative modes, with exact derivatives and with difference quotients."};
+                              "Share of negative modes, from exact derivatives and from central differences."};
 constexpr Quantity exact{"unstable_exact", "/difference_modes/exact/share", group, "1", "n_-/6N"};
 
 /// A step of the differences, in V_p^(1/3), and the quantity for the share of negative modes with this step.

@@ -13,7 +13,7 @@ namespace {
 // bins are the same for all states.
 
 constexpr QuantityGroup group{"gaps and forces",
-                              "Near neighbours within the distance above jamming, and the share of weak contacts."};
+                              "Number of pairs with a gap below Δφ·V_p^(1/3), and share of weak contact forces."};
 constexpr std::string_view per_particle = "per particle";
 constexpr Quantity within_distance{"gaps_within_distance", "/gaps/within_distance", group, per_particle,
                                    "Z_{h<\\Delta\\phi}"};

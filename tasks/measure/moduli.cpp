@@ -5,8 +5,7 @@
 namespace isojam {
 namespace {
 
-constexpr QuantityGroup group{"moduli",
-                              "Elastic moduli with the relaxation of all particles, and shear moduli by direction."};
+constexpr QuantityGroup group{"moduli", "Bulk modulus and the five shear moduli, with all particles relaxed."};
 constexpr Quantity K{"K", "/moduli/K", group, "Y", "K"}, G{"G", "/moduli/G", group, "Y", "G"};
 constexpr Quantity G_min{"G_min", "/moduli/G_min", group, "Y", "G_{min}"};
 constexpr Quantity G_2{"G_2", "/moduli/G_2", group, "Y", "G_2"}, G_3{"G_3", "/moduli/G_3", group, "Y", "G_3"};

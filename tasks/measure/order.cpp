@@ -5,7 +5,7 @@
 namespace isojam {
 namespace {
 
-constexpr QuantityGroup group{"order", "Order of the bond directions (Q4, Q6) and of the orientations (S)."};
+constexpr QuantityGroup group{"order", "Order of the contact directions (Q4, Q6) and of the orientations (S)."};
 constexpr Quantity Q4{"Q4", "/order/Q4", group, "1", "Q_4"}, Q6{"Q6", "/order/Q6", group, "1", "Q_6"};
 constexpr Quantity local_Q4{"local_Q4", "/order/local_Q4", group, "1", "q_4"};
 constexpr Quantity local_Q6{"local_Q6", "/order/local_Q6", group, "1", "q_6"};

@@ -12,7 +12,8 @@
 namespace isojam {
 namespace {
 
-constexpr QuantityGroup group{"prestress", "Constraints and vibrations, with and without the forces of the contacts."};
+constexpr QuantityGroup group{"prestress",
+                              "Constraints from stiff contacts, and vibrations with and without contact forces."};
 constexpr std::string_view per_particle = "per particle";
 constexpr Quantity C_s{"C_s", "/prestress/C_s", group, per_particle, "C_s"};
 constexpr Quantity missing_s{"missing_s", "/prestress/missing", group, per_particle, "m_s"};

@@ -68,7 +68,7 @@ inline constexpr QuantityGroup main_group{
 inline constexpr QuantityGroup contact_group{
     "other cut-offs", "The same contacts with other cut-offs: a gap in the angles, and fixed angles from 5° to 55°."};
 inline constexpr QuantityGroup mode_group{"modes", "Vibrational modes at both ends of the spectrum."};
-inline constexpr QuantityGroup exponent_group{"exponents", "Exponents of power laws in the distance above jamming."};
+inline constexpr QuantityGroup exponent_group{"exponents", "Exponents of power laws in the distance to jamming Δφ."};
 
 /// All quantities, in the order of tables: φ_J, then the quantities of each measure, then those of rearrangements. All
 /// quantities of a group are together. If several measures have quantities in a group, the group is at the position of

@@ -7,7 +7,7 @@ namespace isojam {
 namespace {
 
 constexpr QuantityGroup group{
-    "rigidity", "Independent constraints, zero modes and states of self-stress, by the rank of the rigidity matrix."};
+    "rigidity", "Numbers of floppy motions and states of self-stress, from the rank of the rigidity matrix."};
 
 /// One set of constraints, and the quantities that are computed from it.
 struct Count {

@@ -9,7 +9,8 @@ namespace {
 // Tests whether states are strictly jammed: uses the second derivatives of the enthalpy with respect to the particles
 // and all six strains of the cell, at the pressure of the state. Also relaxes the cell of the nearest state.
 
-constexpr QuantityGroup group{"strict jamming", "Stability of the packing if the cell may change its shape too."};
+constexpr QuantityGroup group{"strict jamming",
+                              "Stability of the packing if the shape and the volume of the cell may change."};
 constexpr Quantity strictly_jammed = proportion({"strictly_jammed", "/strict/jammed", group, "1", "n_{strict}"});
 constexpr Quantity negative{"strict_negative", "/strict/negative", group, "1", "n_-^{strict}"};
 constexpr Quantity deviator{"deviator", "/strict/deviator", group, "1", "\\max|\\sigma+p|/p"};

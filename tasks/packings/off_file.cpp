@@ -14,7 +14,7 @@ struct VertexColumns {
     std::string_view rest = keyword;
     rest.remove_suffix(3);
     if (rest.ends_with('4') || rest.ends_with('n'))
-      lines.refuse(fmt::format("{} is a file of points in another dimension than three", in_quotes(keyword)));
+      lines.refuse(fmt::format("{} is a file whose points do not have three coordinates", in_quotes(keyword)));
     auto lower = lower_case(rest);
     const auto take = [&](std::string_view prefix) {
       if (!lower.starts_with(prefix)) return false;

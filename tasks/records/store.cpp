@@ -104,7 +104,7 @@ void check_records(const fs::path& directory, const Manifest& manifest, bool all
       held = read_record(directory, name);
     } catch (const InputError& damage) {
       if (!planned)
-        warn(fmt::format("{}; the file is not planned by this manifest and was left unchanged", damage.what()));
+        warn(fmt::format("{}; the manifest has no such replicate, so the file was left unchanged", damage.what()));
       continue;
     }
     if (is_of(*held, plan) || is_superseded(*held, plan)) continue;
@@ -331,7 +331,7 @@ void for_each_record(const fs::path& directory, const std::optional<Manifest>& m
   };
   in_order(names.size(), read, [&](Read one) {
     if (!one.held) {
-      warn(one.damage + "; the file is not planned by the manifest and is ignored");
+      warn(one.damage + "; the manifest has no such replicate, so the file is ignored");
     } else if (plan && one.held->summary.manifest_digest != own && !is_of(*one.held, *plan)) {
       if (is_superseded(*one.held, *plan)) return;
       warn(fmt::format("{}: {}; the record is ignored", (directory / "records" / (one.held->name + ".json")).string(),

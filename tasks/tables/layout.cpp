@@ -181,7 +181,8 @@ constexpr std::string_view goal_meaning =
 constexpr std::string_view difference_meaning =
     "Mean differences between replicates with the same initial configuration ± 95 % confidence interval.";
 constexpr std::string_view trough_meaning =
-    "Logarithms of the cut-offs in radians between the edges of their troughs, and contacts with these cut-offs.";
+    "log10 of the lower edge, the cut-off and the upper edge of each trough (rad); contact numbers with these "
+    "cut-offs.";
 constexpr std::string_view angle_meaning = "Largest angles that the shapes allow for each kind of contact.";
 
 struct LaidOut {

@@ -107,7 +107,7 @@ function topologyPanel(placement, index, place, {x, y, boxes}) {
 }
 
 const contactsAbsent = 'no contact numbers were measured; run "isojam measure DIR --add contacts".';
-const contactsTitle = 'Contacts and constraints against distance above jamming';
+const contactsTitle = 'Contacts and constraints against distance to jamming';
 
 function topologyFigure(data, choices) {
   const title = contactsTitle, id = 'topology', keys = Object.keys(contactSeries);
@@ -131,7 +131,7 @@ function topologyFigure(data, choices) {
       `line: $C$ = 12, the isostatic number. Compare Figure 3 of the paper.${boxText(boxes, 'at common $Δφ$')}` +
       outsideText(states, [['delta_phi', x.domain], ['value', y.domain]], boxes),
     spec: (width) => placedSpec(placement, {
-      description: 'Contacts, face-face contacts and constraints per particle against distance above jamming.',
+      description: 'Contacts, face-face contacts and constraints per particle against distance to jamming.',
       width, datasets: {means, states, boxes}, height: 240,
       scales: [
         {name: 'series', type: 'ordinal', domain: keys, range: series.map(({colour}) => colour)},

@@ -21,7 +21,7 @@ function moduliPanel(placement, index, place, {x, y}) {
 const moduliText = 'Moduli include the relaxation of particles, in units of $Y$. Only positive moduli are shown.';
 
 function moduliFigure(data, choices) {
-  const title = 'Elastic moduli against distance above jamming', id = 'moduli', above = 0;
+  const title = 'Elastic moduli against distance to jamming', id = 'moduli', above = 0;
   const keys = Object.keys(modulusSeries);
   const rows = rowsWith(data, keys, above);
   if (rows.length === 0)
@@ -42,7 +42,7 @@ function moduliFigure(data, choices) {
       moduliText + boxText(boxes, 'at common $Δφ$') +
       outsideText(states, [['delta_phi', x.domain], ['value', y.domain]], boxes),
     spec: (width) => placedSpec(placement, {
-      description: 'Bulk and shear modulus against distance above jamming.', width,
+      description: 'Bulk and shear modulus against distance to jamming.', width,
       datasets: {states, boxes, medians}, height: 220,
       scales: [
         {name: 'series', type: 'ordinal', domain: keys, range: series.map(({colour}) => colour)},
@@ -60,6 +60,6 @@ function moduliTogether(data, rows, {id, title, keys, above}) {
     id, title, datasets: made.datasets,
     note: `Medians and quartiles over ${countedText(data)}, interpolated at common distances above jamming and ` +
       `slightly displaced; open symbols without a line are single replicates. ${moduliText}`,
-    spec: (width) => made.spec(width, 'Bulk and shear moduli of all solids against distance above jamming.'),
+    spec: (width) => made.spec(width, 'Bulk and shear moduli of all solids against distance to jamming.'),
   };
 }

@@ -45,7 +45,7 @@ function scalingPanel(placement, index, place, {x, y}) {
 }
 
 const scalingText = 'Mean frequency of the lowest ($⟨ω_l⟩$) and of the highest modes ($⟨ω_h⟩$) against the ' +
-  'distance above jamming';
+  'distance to jamming';
 
 function scalingTogether(data, rows, {id, title, keys, above}) {
   const made = meansTogether(data, rows, {keys, titles: [''], yType: 'log', above, yTitle: '$⟨ω_l⟩$, $⟨ω_h⟩$'});
@@ -60,7 +60,7 @@ function scalingTogether(data, rows, {id, title, keys, above}) {
 }
 
 function scalingFigure(data, choices) {
-  const title = 'Softest and stiffest modes against distance above jamming', id = 'scaling';
+  const title = 'Softest and stiffest modes against distance to jamming', id = 'scaling';
   const keys = Object.keys(endKeys), above = 0, rows = rowsWith(data, keys, above);
   if (rows.length === 0) return modesAbsent(id, title);
   if (choices.together) return scalingTogether(data, rows, {id, title, keys, above});
