@@ -83,44 +83,35 @@ run: build
 	$(BUILD)/isojam run $(EXAMPLE)/manifest.json -o $(RESULTS)
 	@$(BUILD)/isojam report $(RESULTS)
 
-# The studies of examples/paper, the most important ones first; then the page from their results. An interrupted call is
-# resumed. A replicate that failed (exit 1) is counted on the page.
-PAPER = n100 n100-tetrahedra n400 n400-tetrahedra search-protocol search-400 cubes rule-base rule
+# The studies of examples/paper and examples/rigidity; then the page, its tables and its figures from their results. An
+# interrupted call is resumed. A replicate that failed (exit 1) is counted on the page.
+PAPER = n100 n400 protocol
+RIGIDITY = n50 n64 n200 n800
 # Measures that an interrupted call left come first, because `run` would compute the whole replicate again.
 studies = @for study in $(1); do \
 	  [ ! -d results/$(2)-$${study\#n}/records ] || $(BUILD)/isojam measure results/$(2)-$${study\#n} >/dev/null || [ $$? = 1 ] || exit 1; \
-	  $(BUILD)/isojam run examples/$(2)/$$study.json $(3) >/dev/null || [ $$? = 1 ] || exit 1; \
+	  $(BUILD)/isojam run examples/$(2)/$$study.json >/dev/null || [ $$? = 1 ] || exit 1; \
 	done
-# Measures that are added to the records of the directories, and not again.
-measure = @for results in $(1); do \
-	  $(BUILD)/isojam measure results/$$results --add $(subst $(space),$(comma),$(strip $(2))) >/dev/null || [ $$? = 1 ] || exit 1; \
-	done
-comma = ,
-space = $(subst ,, )
+# The backbone of the states nearest jamming. With N = 100, the manifest has it for all states.
+backbone = @$(BUILD)/isojam measure results/paper-400 --add backbone >/dev/null || [ $$? = 1 ]
+page = @$(PYTHON) -B examples/$(1)/figures.py results/$(1) $(2) && \
+	  $(PYTHON) -B examples/$(1)/page.py --data $(2) -o results/$(1)
 paper: build
 	$(call install,python3 python3-matplotlib python3-scipy)
 	$(call studies,$(PAPER),paper)
-	$(call measure,paper-100 paper-100-tetrahedra,backbone difference_modes)
-	$(call measure,paper-400 paper-400-tetrahedra,backbone)
-	$(call measure,paper-rule paper-rule-base,difference_modes)
-	@for study in paper-100 paper-100-tetrahedra; do $(BUILD)/isojam report results/$$study; done
-	@$(PYTHON) -B examples/paper/gather.py $(BUILD)/isojam results results/paper
-	@$(PYTHON) -B examples/paper/figures.py results/paper results/paper
-	@$(PYTHON) -B examples/paper/page.py examples/paper/README.md --data results/paper -o results/paper/README.md
+	$(backbone)
+	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/paper/records.json $(addprefix paper-,$(PAPER:n%=%))
+	$(call page,paper,results/paper/records.json)
 
-# The studies of examples/rigidity, and of the paper's the small ones and a quarter of the large ones, which `paper`
-# goes on with; then the page.
-RIGIDITY = n50 n50-tetrahedra n200 n200-tetrahedra n800
 rigidity: build
 	$(call install,python3 python3-matplotlib python3-scipy)
-	$(call studies,n100 n100-tetrahedra,paper)
+	$(call studies,n100 n400,paper)
 	$(call studies,$(RIGIDITY),rigidity)
-	$(call studies,n400 n400-tetrahedra,paper,--shard 1/4)
-	$(call measure,rigidity-50 rigidity-50-tetrahedra paper-100 paper-100-tetrahedra rigidity-200 \
-	  rigidity-200-tetrahedra paper-400 paper-400-tetrahedra,prestress gaps)
-	@$(PYTHON) -B examples/rigidity/gather.py $(BUILD)/isojam results results/rigidity
-	@$(PYTHON) -B examples/rigidity/figures.py results/rigidity results/rigidity
-	@$(PYTHON) -B examples/rigidity/page.py examples/rigidity/README.md --data results/rigidity -o results/rigidity/README.md
+	$(backbone)
+	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/rigidity/paper.json paper-100 paper-400
+	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/rigidity/records.json \
+	  $(addprefix rigidity-,$(RIGIDITY:n%=%))
+	$(call page,rigidity,results/rigidity/paper.json results/rigidity/records.json)
 
 # All that `run` and `test` install, and nothing else: for the layer of an image.
 .PHONY: packages

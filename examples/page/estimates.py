@@ -10,7 +10,7 @@ import math
 import random
 import statistics
 
-from scipy.special import bdtrc, ndtri, stdtr, stdtrit
+from scipy.special import chdtr, ndtri, stdtr, stdtrit
 
 NORMAL = float(ndtri(0.975))  # half width of a 95 % confidence interval in standard deviations
 
@@ -24,6 +24,11 @@ def normal_deviate(t, freedom):
     """Converts a value t of Student's distribution to the normal deviate with the same two-sided probability. At most
     8."""
     return math.copysign(min(-float(ndtri(stdtr(freedom, -abs(t)))), 8.0), t)
+
+
+def larger_chi_squared(chi_squared, freedom):
+    """Probability of a larger χ²."""
+    return 1 - float(chdtr(freedom, chi_squared))
 
 
 def added(variances):
@@ -42,11 +47,6 @@ def difference_of(first, second):
     deviation, freedom = added(parts)
     return {"mean": statistics.fmean(second) - statistics.fmean(first),
             "half_width": student(freedom) * deviation if deviation else 0.0, "n": min(len(first), len(second))}
-
-
-def binomial_at_least(k, n, p):
-    """Probability of at least k successes in n trials, if p is the probability of success in one trial."""
-    return float(bdtrc(k - 1, n, p))
 
 
 def estimate_of(values, systematic=None):
@@ -71,19 +71,6 @@ def single_half_width(estimate):
     """Half the width of the 95 % prediction interval for one more packing: t·sd·√(1 + 1/n). It follows from
     `half_width`."""
     return estimate["half_width"] * math.sqrt(estimate["n"] + 1)
-
-
-def pooled_correlation(found):
-    """Common correlation of several samples, and its 95 % interval, by the weighted mean of Fisher's z.
-
-    `found` has a pair (r, number of pairs) for each sample. The result is (None, None) if no sample has at least four
-    pairs."""
-    some = [(math.atanh(r), n - 3) for r, n in found if r is not None and n > 3 and abs(r) < 1]
-    weight = sum(w for _, w in some)
-    if not weight:
-        return None, None
-    z, width = sum(z * w for z, w in some) / weight, NORMAL / math.sqrt(weight)
-    return math.tanh(z), (math.tanh(z - width), math.tanh(z + width))
 
 
 def resamples(count, draws, seed):

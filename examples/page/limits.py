@@ -35,12 +35,15 @@ def limit(paths, window, exponent, draws=100, seed=1):
     """Limit a, and exponent x, of a + b Δφ^x, fitted to the points of all replicates with window[0] ≤ Δφ < window[1].
 
     The 95 % intervals come from bootstrap samples of the replicates, with Student's t instead of the normal quantile.
-    The result is None for fewer than three replicates, or fewer than four different values of Δφ."""
+    The result is None for fewer than three replicates, or fewer than four different values of Δφ. It is also None if a
+    free exponent is at an end of GRID, because the data then do not determine it."""
     inside = [[(x, y) for x, y in path if window[0] <= x < window[1] and y is not None] for path in paths]
     inside = [path for path in inside if path]
     if len(inside) < 3 or len({x for path in inside for x, _ in path}) < 4:
         return None
     a, _, x, _ = fitted([point for path in inside for point in path], exponent)
+    if exponent is None and x in (GRID[0], GRID[-1]):
+        return None
     # Values relative to the limit, so that sums of squares do not cancel.
     tried = GRID if exponent is None else (exponent,)
     parts = {e: [sums([(d, y - a) for d, y in path], e) for path in inside] for e in tried}
@@ -54,15 +57,14 @@ def limit(paths, window, exponent, draws=100, seed=1):
             "exponent_half_width": t * statistics.stdev(fit[1] for fit in found)}
 
 
-def limit_of_choices(paths, windows, central=(0, None), possible=None):
+def limit_of_choices(paths, windows, central=(0, None)):
     """Limits for all windows and forms, and the limit of the central choice with a systematic error.
 
     The limits are a dict {(index of the window, form): estimate}. The systematic error is half the range over all
-    choices. If `possible` is given, choices other than the central one count only if possible(estimate) is true."""
+    choices that have a limit. If the central choice has none, the form x = 1 of the same window replaces it."""
     every = {(i, form): limit(paths, window, form) for i, window in enumerate(windows) for form in FORMS}
-    found = [estimate for estimate in every.values() if estimate]
-    chosen = every[central]
+    chosen = every[central] or every[central[0], 1.0]
     if not chosen:
         return every, None
-    means = [estimate["mean"] for estimate in found if estimate is chosen or not possible or possible(estimate)]
+    means = [estimate["mean"] for estimate in every.values() if estimate]
     return every, {**chosen, "systematic": 0.5 * (max(means) - min(means))}

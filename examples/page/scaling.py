@@ -43,29 +43,6 @@ def jamming_density(phi, energy, start, window, exponent=6):
         history.append(found)
 
 
-def free_exponent(phi, energy, start, window):
-    """Fit of E ∝ (φ − φ_J)^x by least squares of ln E: (φ_J, x).
-
-    The fit uses the states whose distance from `start` is in the window. The result is None for fewer than four
-    states."""
-    chosen = [i for i, x in enumerate(phi) if window[0] <= x - start < window[1] and energy[i] > 0]
-    if len(chosen) < 4:
-        return None
-    x, y = [phi[i] for i in chosen], [math.log(energy[i]) for i in chosen]
-    least, reach = min(x), max(x) - min(x)
-
-    def off(gap):
-        return line([math.log(a - least + gap) for a in x], y)[2]
-
-    # Golden section: as a function of the logarithm of the gap between φ_J and the last state there is one minimum.
-    low, high, ratio = math.log(reach * 1e-4), math.log(reach * 10), (math.sqrt(5) - 1) / 2
-    for _ in range(120):
-        first, second = high - ratio * (high - low), low + ratio * (high - low)
-        low, high = (low, second) if off(math.exp(first)) < off(math.exp(second)) else (first, high)
-    gap = math.exp(0.5 * (low + high))
-    return least - gap, line([math.log(a - least + gap) for a in x], y)[1]
-
-
 def slopes(x, y):
     """Pairs (geometric mean of x, d ln y/d ln x) for neighbouring states with positive numbers."""
     found = []
@@ -90,11 +67,6 @@ def binned(paths, edges):
                 means.append(sum(here) / len(here))
         bins.append(estimate_of(means))
     return bins
-
-
-def local_slopes(paths, edges):
-    """Local exponents, one estimate for each bin. `paths` has a pair (values of x, values of y) for each replicate."""
-    return binned([slopes(x, y) for x, y in paths], edges)
 
 
 def at(x, y, where):

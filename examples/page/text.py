@@ -1,7 +1,6 @@
 """Converts numbers and tables to Markdown. All functions are pure."""
 
 import math
-import re
 
 from estimates import single_half_width
 
@@ -20,7 +19,8 @@ def places_of(half_width):
 
 
 def signed(x, places):
-    return ("+" if x > 0 else "") + number(x, places)
+    text = number(x, places)
+    return text if text.startswith("−") or not float(text) else f"+{text}"
 
 
 def interval(estimate):
@@ -38,11 +38,6 @@ def interval(estimate):
     places = places_of(max(errors))
     shown = [estimate["half_width"]] + ([] if systematic is None else [systematic])
     return " ± ".join(number(x, places) for x in (estimate["mean"], *shown))
-
-
-def bounded(estimate):
-    """The text of interval(). If its last error rounds to zero, "<" and one unit of the last digit replace the zero."""
-    return re.sub(r"± 0\.(0+)$", lambda match: f"± < 0.{match.group(1)[:-1]}1", interval(estimate))
 
 
 def counted(estimate):
@@ -66,18 +61,6 @@ def significant(x, digits):
         return "0"
     places = digits - 1 - math.floor(math.log10(abs(x)))
     return number(round(x, places), max(0, places)) if -4 < places < 8 else f"{x:.{digits - 1}e}"
-
-
-def power(x):
-    """A largest value with one digit, such as 1·10⁻⁷ for 1e-7. It is rounded up."""
-    if not x:
-        return "0"
-    exponent = math.floor(math.log10(x))
-    digit = math.ceil(x / 10 ** exponent - 1e-9)
-    if digit == 10:
-        digit, exponent = 1, exponent + 1
-    raised = str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-    return f"{digit}·10{raised}"
 
 
 def table(head, rows):

@@ -1,116 +1,131 @@
-"""Draws the figures of the page from DATA/records.json (see gather.py): python3 figures.py DATA OUT
-
-spectra.png is the paper's Figure 1a, vibrations.png 1b, angles.png 2, and contacts.png 3a–c. They show N = 400 if it
-was measured, and also N = 100 where the paper does.
-"""
+"""Draws the figures of the page from data: python3 figures.py OUT DATA/records.json [...]"""
 
 import sys
 from pathlib import Path
 
-# data.py finds what pages have in common.
-from data import SIZES, SOLIDS, Data
-from drawing import COLOURS, GRID, MARKERS, SETTINGS, matplotlib, mean_path, pyplot, save
-from network import random_curves
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "page"))
+
+import matplotlib  # noqa: E402
+from matplotlib import pyplot  # noqa: E402
+
+from data import SOLIDS, Data  # noqa: E402
+from drawing import COLOURS, GRID, MARKERS, SETTINGS, WIDTH, curve, letter, mean_path, save, solid_legend  # noqa: E402
+from comparison import DICE_DENSITY, drawn_size, figures_of  # noqa: E402
 
 
-FREQUENCY = "V$_p^{-1/3}$ (Y/ρ)$^{1/2}$"
-PREFIX = {"edge_face": "ef", "face_face": "ff"}
-TOPOLOGIES = {"vertex_face": "v", "edge_edge": "s", "edge_face": "o"}
+def densities(data, out):
+    """φ_J of all packings, beside the paper's values."""
+    figure, panels = pyplot.subplots(1, len(SOLIDS), figsize=(WIDTH, 2.6), layout="constrained")
+    for axes, solid, name in zip(panels, SOLIDS, "abcd"):
+        below, above = data.protocol_range(solid)
+        for place, particles in enumerate((100, 400)):
+            values = [r["phi_j"] for r in data.kept(solid, particles)]
+            mean = data.phi_j(solid, particles)
+            if not mean:
+                continue
+            axes.add_patch(matplotlib.patches.Rectangle((place - 0.38, mean["mean"] + below), 0.76, above - below,
+                                                        facecolor=COLOURS[solid], alpha=0.18, linewidth=0))
+            shift = [place - 0.22 + 0.3 * ((7 * i) % 16) / 15 for i in range(len(values))]
+            axes.plot(shift, values, MARKERS[solid], color=COLOURS[solid], markersize=3, alpha=0.75,
+                      markeredgewidth=0)
+            axes.errorbar([place + 0.18], [mean["mean"]], [mean["half_width"] or 0], fmt="_k", markersize=9,
+                          capsize=3)
+            paper = next(f for f in figures_of("Table I") if (f["solid"], f["particles"]) == (solid, particles))
+            axes.errorbar([place + 0.33], [paper["value"]], [paper["error"]], fmt="*", color="black",
+                          markerfacecolor="white", markersize=7, capsize=2)
+        middle = data.phi_j(solid, 400)["mean"] if data.phi_j(solid, 400) else mean["mean"]
+        dice = DICE_DENSITY[solid][0]
+        if abs(dice - middle) < 0.035:
+            axes.axhline(dice, color="0.55", linewidth=0.8, linestyle=":")
+        axes.set(xlim=(-0.5, 1.5), xticks=(0, 1), xticklabels=("N = 100", "N = 400"),
+                 ylim=(middle - 0.031, middle + 0.017))
+        letter(axes, name, solid)
+    panels[0].set_ylabel("jamming density φ$_J$")
+    save(figure, out / "densities")
 
 
-def drawn(data, solid):
-    """Curves of a solid at the largest size that was measured: (size, curves)."""
-    for particles in reversed(SIZES):
-        for study in data.studies.values():
-            if f"{solid} {particles}" in study.get("drawn", {}):
-                return particles, study["drawn"][f"{solid} {particles}"]
-    return None, {}
+def constraints_panel(axes, data, solid, particles):
+    colour = COLOURS[solid]
+    grid = [d for d in GRID if d < 0.13]
+    x, y, error = mean_path(data, solid, particles, "C", grid=grid)
+    low, high = (mean_path(data, solid, particles, f"C_{of}", grid=grid) for of in ("half", "double"))
+    common = [d for d in low[0] if d in high[0]]
+    axes.fill_between(common, [low[1][low[0].index(d)] for d in common], [high[1][high[0].index(d)] for d in common],
+                      color="0.6", alpha=0.3, linewidth=0, label="fit, cut-offs × ½ … × 2")
+    axes.errorbar(x, y, error, fmt="o", color="0.35", markersize=3, markerfacecolor="white", elinewidth=0.8,
+                  label="fit")
+    x, y, error = mean_path(data, solid, particles, "C_gap", grid=grid)
+    if x:
+        axes.errorbar(x, y, error, fmt="x", color="black", markersize=4, elinewidth=0.8, label="gap")
+    points = [(data.nearest_distance(solid, particles)["mean"], data.constraints(solid, particles, "trough"))]
+    points += [(d, data.constraints(solid, particles, "trough", d)) for d in data.trough_distances(solid, particles)]
+    points = sorted((d, e) for d, e in points if e)
+    if points:
+        x, found = zip(*points)
+        y, wide = [e["mean"] for e in found], [e["systematic"] for e in found]
+        if len(x) > 1:
+            axes.fill_between(x, [a - b for a, b in zip(y, wide)], [a + b for a, b in zip(y, wide)], color=colour,
+                              alpha=0.3, linewidth=0)
+        axes.errorbar(x, y, wide, fmt="none", color=colour, elinewidth=9, alpha=0.35)
+        axes.errorbar(x, y, [e["half_width"] for e in found], marker=MARKERS[solid], color=colour, label="trough",
+                      zorder=4)
 
 
-def series(axes, data, column, sizes, label=True):
-    for solid in SOLIDS:
-        for particles in sizes:
-            x, y, error = mean_path(data, solid, particles, column, column.startswith("omega"))
-            if x:
-                axes.errorbar(x, y, error, color=COLOURS[solid], marker=MARKERS[solid], markersize=4, linewidth=0.8,
-                              fillstyle="full" if particles == 400 else "none",
-                              label=f"{solid} {particles}" if label else None)
-
-
-def spectra(data, out):
-    """Softest and stiffest modes apart, by number: the spectrum between them is not in the data."""
-    figure, both = pyplot.subplots(1, 2, figsize=(7.6, 3.2))
-    for solid in SOLIDS:
-        particles, curves = drawn(data, solid)
-        if "spectrum" not in curves:
-            continue
-        for axes, modes in zip(both, curves["spectrum"]):
-            axes.plot(range(1, len(modes) + 1), sorted(modes), MARKERS[solid], markersize=3, color=COLOURS[solid],
-                      label=f"{solid} {particles}, Δφ = {curves['delta_phi']:.2g}")
-    both[0].set(yscale="log", xlabel="mode, softest first", ylabel=f"ω  ({FREQUENCY})", title="fifty softest")
-    both[1].set(ylim=(0, None), xlabel="mode, stiffest last", ylabel=f"ω  ({FREQUENCY})", title="fifty stiffest")
-    both[0].legend(fontsize=8, loc="center right", bbox_to_anchor=(1.0, 0.55))
-    save(figure, out / "spectra.png")
+def constraints(data, out):
+    """C against Δφ by three classifications."""
+    particles = drawn_size(data)
+    figure, panels = pyplot.subplots(2, 2, figsize=(WIDTH, 4.6), sharex=True, sharey=True, layout="constrained")
+    paper = next(f for f in figures_of("Table III, column 1") if f["column"] == "C")
+    for axes, solid, name in zip(panels.flat, SOLIDS, "abcd"):
+        constraints_panel(axes, data, solid, particles)
+        axes.axhline(12 - 4 / particles, color="black", linewidth=0.8, linestyle=":")
+        if solid == paper["solid"]:
+            axes.plot([paper["delta_phi"]], [paper["value"]], "*k", markerfacecolor="white", markersize=9, zorder=5)
+        axes.set(xscale="log", xlim=(2e-4, 0.14), ylim=(10.4, 15.2))
+        letter(axes, name, f"{solid}, N = {particles}")
+    panels[0, 0].legend(loc="upper left")
+    figure.supxlabel("distance to jamming Δφ", fontsize=8.5)
+    figure.supylabel("constraint number C per particle", fontsize=8.5)
+    save(figure, out / "constraints")
 
 
 def vibrations(data, out):
-    figure, axes = pyplot.subplots(figsize=(5.6, 3.8))
-    sizes = largest(data)
-    series(axes, data, "omega_h", sizes, False)
-    series(axes, data, "omega_l", sizes)
-    axes.plot(GRID[4:], [3.0 * x ** 2 for x in GRID[4:]], "k:", linewidth=0.8, label="∝ Δφ$^2$")
-    axes.set(xscale="log", yscale="log", xlabel="Δφ", ylabel=f"⟨ω$_l$⟩ (lower), ⟨ω$_h$⟩ (upper)  ({FREQUENCY})")
-    axes.legend(fontsize=8)
-    save(figure, out / "vibrations.png")
-
-
-def largest(data):
-    return (400,) if any(data.counted(solid, 400) for solid in SOLIDS) else (100,)
-
-
-def angles(data, out):
-    figure, rows = pyplot.subplots(2, len(SOLIDS), figsize=(9.6, 4.6), sharey=True)
-    for panels, kind, name in zip(rows, ("edge_face", "face_face"), ("θ$_{ef}$", "θ$_{ff}$")):
-        for axes, solid in zip(panels, SOLIDS):
-            particles, curves = drawn(data, solid)
-            if kind not in curves:
-                continue
-            x, free, constrained = random_curves(PREFIX[kind], data.critical[solid])
-            axes.plot(x, free, "k--", linewidth=0.8, label="random")
-            axes.plot(x, constrained, "k:", linewidth=0.8, label="edge in a face")
-            share = [(i + 0.5) / len(curves[kind]) for i in range(len(curves[kind]))]
-            axes.plot(curves[kind], share, color=COLOURS[solid], linewidth=1.2, label="packings")
-            for topology, marker in TOPOLOGIES.items():
-                angle = data.critical[solid].get(f"{PREFIX[kind]}_{topology}")
-                if angle:
-                    axes.plot([angle], [sum(a <= angle for a in curves[kind]) / len(curves[kind])], marker, zorder=3,
-                              markersize=5, markerfacecolor="white", color=COLOURS[solid], linestyle="none",
-                              label=topology.replace("_", "-"), clip_on=False)
-            if kind == "face_face":
-                axes.axvspan(0, 1, color="0.85", linewidth=0)
-            axes.set(xlabel=f"{name} (degrees)", title=f"{solid} {particles}", xlim=(0, None), ylim=(0, 1.02))
-        panels[0].set_ylabel(f"c({name})")
-    handles = {label: handle for axes in rows.flat for handle, label in zip(*axes.get_legend_handles_labels())}
-    rows[0][0].legend(handles.values(), handles, fontsize=7, loc="lower right")
-    save(figure, out / "angles.png", 75)
-
-
-def contacts(data, out):
-    figure, three = pyplot.subplots(1, 3, figsize=(10, 3.3))
-    for axes, column, title, limit in zip(three, ("Z", "C", "Z_ff"), ("Z", "C", "Z$_{ff}$"),
-                                          (12, 12, None)):
-        series(axes, data, column, SIZES, axes is three[2])
-        if limit:
-            axes.axhline(limit, color="0.5", linewidth=0.8, linestyle=":")
-        axes.set(xscale="log", xlabel="Δφ", ylabel=f"{title} (per particle)")
-    three[2].legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    save(figure, out / "contacts.png", 80)
+    """Spectra, and mean frequencies against Δφ."""
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(WIDTH, 2.9), layout="constrained")
+    for solid in SOLIDS:
+        for particles in (400, 100):
+            spectra = [s["spectra"][f"{solid} {particles}"] for s in data.main()
+                       if f"{solid} {particles}" in s.get("spectra", ())]
+            if spectra:
+                break
+        if spectra:
+            lowest, highest = spectra[0]["lowest"], spectra[0]["highest"]
+            label = f"{solid}, Δφ = {spectra[0]['delta_phi']:.2g}"
+            left.semilogy(range(1, len(lowest) + 1), lowest, color=COLOURS[solid], marker=MARKERS[solid], markevery=7,
+                          label=label)
+            left.semilogy(range(len(lowest) + 6, len(lowest) + 6 + len(highest)), highest, color=COLOURS[solid],
+                          marker=MARKERS[solid], markevery=7)
+        for column in ("omega_l", "omega_h"):
+            curve(right, mean_path(data, solid, 400, column, logarithmic=True), solid, linestyle="-")
+    guide = [4e-4, 0.1]
+    right.plot(guide, [3 * d ** 2 for d in guide], "k--", linewidth=0.8)
+    right.text(1.1e-3, 2e-5, "∝ Δφ²", fontsize=8)
+    left.axvspan(51.5, 54.5, color="0.9", linewidth=0)
+    left.set(xlabel="50 lowest modes | 50 highest modes", ylabel="ω  (V$_p^{-1/3}$ (Y/ρ)$^{1/2}$)", ylim=(1e-10, 8))
+    left.legend(fontsize=8, loc="lower right")
+    letter(left, "a")
+    right.set(xscale="log", yscale="log", xlabel="distance to jamming Δφ", ylabel="⟨ω$_l$⟩ (below), ⟨ω$_h$⟩ (above)",
+              ylim=(1e-10, 8))
+    solid_legend(right, loc="lower right")
+    letter(right, "b")
+    save(figure, out / "vibrations")
 
 
 def main():
-    data, out = Data(Path(sys.argv[1])), Path(sys.argv[2])
+    out, data = Path(sys.argv[1]), Data(*sys.argv[2:])
+    out.mkdir(parents=True, exist_ok=True)
     with matplotlib.rc_context(SETTINGS):
-        for draw in (spectra, vibrations, angles, contacts):
+        for draw in (densities, constraints, vibrations):
             draw(data, out)
 
 

@@ -1,69 +1,94 @@
-"""Updates the page that compares our results with the paper.
+"""Makes README.md and tables.md: python3 page.py [--data FILE...] [-o OUT] [--check] [--summary PAGE]"""
 
-usage: python3 page.py PAGE [-o OUT] [--data DIR] [--check] [--some]
-
-PAGE holds blocks and numbers within sentences (see ../page/marks.py). They are made again from DIR/records.json and
-DIR/search.json (see gather.py; DIR is data by default) and from data/paper.json. All else is unchanged. Writes to OUT,
-or to PAGE by default. With --check nothing is written, and a page that differs from its data is an error. With --some
-PAGE may have only some of the blocks.
-"""
-
-import argparse
-import shutil
 import sys
 from pathlib import Path
 
-from blocks import BLOCKS, value_of
-from data import COMMITTED, Data
-from marks import PageError, renewed
-from verdicts import overlap
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "page"))
+
+import pages  # noqa: E402
+import values  # noqa: E402
+from comparison import STABLE_FROM, drawn_size, figures_of, offset_test, within  # noqa: E402
+from data import SOLIDS  # noqa: E402
+from tables import SIZES, TABLES, contacts_at_jamming, region_two_ratios, summary  # noqa: E402, F401
+from text import interval, number, significant  # noqa: E402
+
+TITLE = "Jammed packings of Platonic solids"
+FILES = (HERE / "data/records.json",)
+ENTRIES = """An entry a ± b (n) is the mean a over n packings and half the width b of its 95 % confidence interval
+(Student t). A third number ± c is a systematic error, which the text defines. *One more packing* is half the width of the
+95 % prediction interval: with this probability, one more packing of ours is within our mean ± this number. *Nearest* is
+the state nearest jamming of each packing. A dash means that the value is unknown."""
+BLOCKS = {"summary": summary}
 
 
-def agreement(data, committed):
-    """Number of our values whose 95 % confidence intervals overlap those of the committed ones, and the others."""
-    lines, met, known = [], 0, 0
-    for figure in data.figures:
-        if figure["place"] == "Table II":
-            continue
-        ours, theirs = data.of(figure), committed.of(figure)
-        together = overlap(ours, theirs)
-        if together is None:
-            continue
-        known += 1
-        met += together
-        if not together:
-            lines.append(f"  {figure['place']}, {figure['solid']} N = {figure['particles']}, {figure['column']}: "
-                         f"{ours['mean']:.5g} ± {ours['half_width']:.2g}, committed "
-                         f"{theirs['mean']:.5g} ± {theirs['half_width']:.2g}")
-    head = f"{met} of {known} values agree with those in examples/paper: their 95 % confidence intervals overlap"
-    return "\n".join([head, *lines])
+def at_jamming(data, end):
+    """Z_J of the solid where it is least or greatest, N = 400."""
+    found = [e["mean"] for solid in SOLIDS if (e := contacts_at_jamming(data, solid, 400))]
+    return number(min(found) if end == "least" else max(found), 1)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("page", type=Path)
-    parser.add_argument("-o", "--out", type=Path)
-    parser.add_argument("--data", type=Path, default=COMMITTED)
-    parser.add_argument("--check", action="store_true")
-    parser.add_argument("--some", action="store_true")
-    arguments = parser.parse_args()
-    page, data = arguments.page.read_text(encoding="utf-8"), Data(arguments.data)
-    try:
-        made = renewed(page, BLOCKS, data, value_of, every=not arguments.some)
-    except PageError as error:
-        sys.exit(str(error))
-    if arguments.check:
-        sys.exit(0 if made == page else
-                 f"{arguments.page}: differs from {arguments.data}; page.py without --check updates it")
-    out = arguments.out or arguments.page
-    out.write_text(made, encoding="utf-8")
-    if out.parent.resolve() != arguments.page.parent.resolve():
-        for image in sorted(arguments.page.parent.glob("*.png")):
-            if not (out.parent / image.name).exists():
-                shutil.copy(image, out.parent)
-    if arguments.data.resolve() != COMMITTED:
-        print(agreement(data, Data(COMMITTED)))
+def offsets(data, which):
+    chi_squared, freedom, probability = offset_test(data)
+    return {"chi_squared": number(chi_squared, 1), "freedom": str(freedom), "p": significant(probability, 2)}[which]
 
+
+def largest_offset(data):
+    return number(max(abs(f["value"] - data.phi_j(f["solid"], f["particles"])["mean"])
+                      for f in figures_of("Table I")), 3)
+
+
+def entry(data, solid):
+    return f"`{interval(data.constraints(solid, drawn_size(data), 'trough'))}`"
+
+
+def drawn(data, how, solid):
+    """C of a solid in the size of the figure."""
+    return values.constraints(data, how, solid, drawn_size(data))
+
+
+value_of = values.value_of({
+    **values.VALUES, "Z_J": at_jamming, "offsets": offsets, "largest_offset": largest_offset, "entry": entry,
+    "size": lambda data: str(drawn_size(data)), "drawn": drawn,
+    "isostatic": lambda data: values.against_isostatic(data, "trough", drawn_size(data)),
+    "trough_width": lambda data: values.largest_systematic(data, drawn_size(data))})
+
+
+def constraints_of(data, how):
+    return {solid: e["mean"] for solid in SOLIDS if (e := data.constraints(solid, drawn_size(data), how))}
+
+
+# Sentences of README.md that follow from the data only as long as these functions are true.
+CLAIMS = {
+    "Contacts are hypostatic": lambda data: all(
+        (e := contacts_at_jamming(data, s, 400)) and e["mean"] + e["half_width"] < 12 for s in SOLIDS),
+    "C lies near 12": lambda data: all(abs(c - 12) < 0.6 for c in constraints_of(data, "trough").values()),
+    "gives a larger C in all four solids.": lambda data: all(
+        constraints_of(data, "fit")[s] > c for s, c in constraints_of(data, "trough").items()),
+    "The paper's intervals are narrower than the spread of single packings.": lambda data: all(
+        f["error"] < data.phi_j(f["solid"], f["particles"])["half_width"] * (data.phi_j(
+            f["solid"], f["particles"])["n"] + 1) ** 0.5 for f in figures_of("Table I")),
+    "so its cut-off lies at or above the upper edge of the trough.": lambda data: all(
+        data.nearest(s, drawn_size(data), "cut_ef")["mean"] >= entry["edge_face"]["high"]
+        for s in SOLIDS if (entry := data.trough(s, drawn_size(data))) and "high" in entry["edge_face"]),
+    "No state nearest jamming has a negative mode.": lambda data: all(
+        not r["states"]["negative"][-1] for s in SOLIDS for n in SIZES for r in data.kept(s, n)),
+    "have spurious negative modes": lambda data: all(
+        data.nearest(s, 100, "unstable_exact")["mean"] == 0 < data.nearest(s, 100, "unstable_h8")["mean"]
+        for s in SOLIDS),
+    "The highest modes move almost only particles with a face-face contact.": lambda data: all(
+        data.nearest(s, 400, "amplitude")["mean"] > 0.95 for s in SOLIDS),
+    "Z_ff and the cluster size S agree with the paper.": lambda data: not any(
+        "outside" in within(data, f, data.at(f["solid"], 400, f["column"], STABLE_FROM[f["solid"]]))
+        for f in figures_of("Table IV") if f["column"] in ("Z_ff", "S")),
+    "The extents l_max of clusters are smaller than the paper's, whichever length we use": lambda data: all(
+        data.at(f["solid"], 400, f["column"], STABLE_FROM[f["solid"]])["mean"] < f["value"]
+        for f in figures_of("Table IV") if "l_max" in f["column"]),
+    "The density of θ_ff between 1° and the smallest critical angle is not uniform": lambda data: all(
+        abs(ratio["mean"] - 1) > ratio["half_width"] for _, _, ratio in region_two_ratios(data)),
+    "Only some states are confirmed minima.": lambda data: all(
+        0 <= sum(data.minima(s, 400)[:2]) < data.minima(s, 400)[2] for s in SOLIDS),
+}
 
 if __name__ == "__main__":
-    main()
+    pages.main(sys.modules[__name__], HERE)

@@ -1,140 +1,136 @@
-"""Draws the figures of the page from DATA/records.json (see gather.py): python3 figures.py DATA OUT
-
-soft.png and held.png show stiffness and prestress, bands.png and angles.png counting, missing.png the rank, and
-forces.png forces and gaps.
-"""
+"""Draws the figures of the page from data: python3 figures.py OUT DATA/records.json [...]"""
 
 import sys
 from pathlib import Path
 
-# data.py finds what pages have in common.
-from data import SOLIDS, Data
-from drawing import COLOURS, MARKERS, SETTINGS, matplotlib, mean_path, pyplot, save
-from forces import STEPS_OF_FORCE, STEPS_OF_GAP, cumulative
-from gather import CURVE, DRAWN, FORCES, GAPS, NORMAL_BOUNDARIES, POWERS, TILT_BOUNDARY
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "page"))
 
-FILLS = {50: "none", 64: "none", 100: "none", 200: "right", 400: "full", 800: "left"}
-SIZE_COLOURS = {50: "#9ecae1", 100: "#6baed6", 200: "#3182bd", 400: "#08519c", 800: "#000000"}
+import matplotlib  # noqa: E402
+from matplotlib import pyplot  # noqa: E402
 
+from data import SOLIDS, Data  # noqa: E402
+from drawing import COLOURS, GRID, MARKERS, SETTINGS, WIDTH, curve, letter, mean_path, save, solid_legend  # noqa: E402
+from counting import EDGES, drawn_size  # noqa: E402
+from troughs import density  # noqa: E402
 
-def series(axes, data, column, sizes, logarithmic=False, scale=None, label=True):
-    for solid in SOLIDS:
-        for particles in sizes:
-            x, y, error = mean_path(data, solid, particles, column, logarithmic)
-            if not x:
-                continue
-            unit = scale(y) if scale else 1
-            axes.errorbar(x, [v / unit for v in y], [[e / unit for e in side] for side in error], color=COLOURS[solid],
-                          marker=MARKERS[solid], markersize=4, linewidth=0.8, fillstyle=FILLS[particles],
-                          label=f"{solid} {particles}" if label else None)
+DRAWN = (0.04, 0.02, 0.01, 0.005, 0.0025, 0.001)  # Δφ of the densities of angles, beside the nearest
 
 
-def soft(data, out):
-    figure, two = pyplot.subplots(1, 2, figsize=(8.4, 3.2), sharey=True)
-    for axes, column, title in zip(two, ("omega_over_root_G", "omega_over_root_K"), ("⟨ω_l⟩/√G", "⟨ω_l⟩/√K")):
-        series(axes, data, column, (400,), True, scale=lambda y: y[0], label=axes is two[0])
-        axes.set(xscale="log", yscale="log", xlabel="Δφ", title=f"{title}, N = 400, relative to the largest Δφ")
-        axes.yaxis.set_major_formatter("{x:g}")
-        axes.yaxis.set_minor_formatter("{x:g}")
-        axes.tick_params(which="minor", labelsize=7)
-    two[0].set_ylabel("ratio")
-    two[0].legend(fontsize=7)
-    save(figure, out / "soft.png", 80)
-
-
-def held(data, out):
-    figure, two = pyplot.subplots(1, 2, figsize=(8.4, 3.2))
-    for axes, column, title in zip(two, ("second_each", "prestress_each"),
-                                   ("normals", "normals and stiff tilts (s > 10)")):
-        series(axes, data, column, (100,), label=axes is two[1])
-        axes.set(xscale="log", xlabel="Δφ", title=f"Modes to which {title}\ncontribute less than half")
-    two[0].set(ylim=(0, 6), ylabel="modes per particle (of 6)")
-    two[1].set(yscale="log", ylim=(1e-4, 6))
-    two[1].legend(fontsize=7)
-    save(figure, out / "held.png", 80)
-
-
-def bands(data, out):
-    figure, axes = pyplot.subplots(2, 4, figsize=(11, 4.4), sharex=True)
-    centres = [(a + b) / 2 for a, b in zip(POWERS, POWERS[1:])]
-    for row, kind, expected in zip(axes, ("s_normal", "s_tilt"), ((1, 5 / 3, 5), (0, 5 / 3, 5))):
-        for panel, solid in zip(row, SOLIDS):
-            for i, place in enumerate(("0.02", "0.005", "nearest")):
-                found = [c for s in data.studies.values() if (c := s.get("powers", {}).get(f"{solid} {place} {kind}"))]
-                if found:
-                    every = sum(found[0])
-                    panel.step(centres, [n / every for n in found[0]], where="mid", linewidth=0.9,
-                               color=pyplot.get_cmap("viridis")(i / 3),
-                               label="smallest Δφ" if place == "nearest" else f"Δφ = {place}")
-            for x in expected:
-                panel.axvline(x, color="0.7", linewidth=0.6, zorder=0)
-            for x in NORMAL_BOUNDARIES if kind == "s_normal" else (TILT_BOUNDARY,):
-                panel.axvline(x, color="0.7", linewidth=0.6, linestyle=":", zorder=0)
-            panel.set_title(f"{solid}s, {'normals' if kind == 's_normal' else 'tilts'}".replace("drons", "dra"))
-    for panel in axes[1]:
-        panel.set(xlabel="x for s = Δφ$^{-x}$", xlim=(-0.5, 6))
-    for row in axes:
-        row[0].set_ylabel("share")
-    axes[0][0].legend(fontsize=7)
-    save(figure, out / "bands.png", 70)
+def shades(colour, count):
+    """Colours from light to full."""
+    full = matplotlib.colors.to_rgb(colour)
+    return [tuple(1 - (1 - c) * (i + 1) / count for c in full) for i in range(count)]
 
 
 def angles(data, out):
-    figure, four = pyplot.subplots(1, 4, figsize=(11, 3), sharey=True)
-    for axes, solid in zip(four, SOLIDS):
-        for i, distance in enumerate(DRAWN):
-            curves = [c for s in data.studies.values() if (c := s.get("collapsed", {}).get(f"{solid} {distance}"))]
-            if curves:
-                axes.plot(curves[0], CURVE, color=pyplot.get_cmap("viridis")(i / len(DRAWN)), linewidth=0.9,
-                          label=f"Δφ = {distance:g}")
-        axes.set(xscale="log", xlabel="θ$_{ef}$/Δφ$^{5/3}$", title=f"{solid}, N = 100", xlim=(1e-2, 1e5),
-                 ylim=(0, 1))
-    four[0].set_ylabel("c(θ$_{ef}$)")
-    four[1].legend(fontsize=7, loc="upper left")
-    save(figure, out / "angles.png", 72)
+    """Density of log θ_ef, with the trough and the fitted cut-off."""
+    particles = drawn_size(data)
+    figure, panels = pyplot.subplots(2, 2, figsize=(WIDTH, 4.6), sharex=True, sharey=True, layout="constrained")
+    for axes, solid, name in zip(panels.flat, SOLIDS, "abcd"):
+        places = [d for d in DRAWN if data.trough(solid, particles, d)][-4:] + [None]
+        for distance, colour, width in zip(places, shades(COLOURS[solid], len(places)), (0.8, 0.8, 1, 1, 1.6)[-len(places):]):
+            entry = data.trough(solid, particles, distance)
+            if not entry or "theta_ef" not in entry:
+                continue
+            x, y, error = density(entry, "theta_ef")
+            shown = [i for i, value in enumerate(y) if value > 0]
+            at = distance or data.nearest_distance(solid, particles)["mean"]
+            axes.errorbar([x[i] for i in shown], [y[i] for i in shown], [error[i] for i in shown], color=colour,
+                          linewidth=width, elinewidth=0.6, marker=MARKERS[solid] if distance is None else "",
+                          markersize=3, label=f"Δφ = {at:.2g}")
+            if distance is None and entry["edge_face"].get("cutoff"):
+                trough = entry["edge_face"]
+                axes.axvspan(trough["low"], trough["high"], color="0.85", linewidth=0)
+                axes.axvline(trough["cutoff"], color="0.4", linewidth=0.8, linestyle=":")
+        fitted = data.nearest(solid, particles, "cut_ef")
+        if fitted:
+            axes.annotate("", (fitted["mean"], 0.05), (fitted["mean"], 0.02), arrowprops={"arrowstyle": "-|>"})
+        axes.set(xscale="log", yscale="log", xlim=(3e-8, 2), ylim=(0.02, 12))
+        axes.legend(loc="upper left", handlelength=1.4)
+        letter(axes, name, f"{solid}, N = {particles}")
+    figure.supxlabel("alignment angle θ$_{ef}$ (rad)", fontsize=8.5)
+    figure.supylabel("dn/d log$_{10}$ θ$_{ef}$ per particle", fontsize=8.5)
+    save(figure, out / "angles")
 
 
-def missing(data, out):
-    figure, two = pyplot.subplots(1, 2, figsize=(8.4, 3.2), sharey=True)
-    for axes, solid in zip(two, ("icosahedron", "dodecahedron")):
-        for particles, colour in SIZE_COLOURS.items():
-            x, y, error = mean_path(data, solid, particles, "missing")
-            if x:
-                axes.errorbar(x, y, error, color=colour, marker=MARKERS[solid], markersize=3, linewidth=0.8,
-                              label=f"N = {particles}")
-        axes.set(xscale="log", yscale="log", xlabel="Δφ", ylim=(0.03, 2),
-                 title=f"{solid}: missing constraints per particle")
-    two[0].set_ylabel("m")
-    two[0].legend(fontsize=7)
-    save(figure, out / "missing.png", 80)
+def band(axes, data, solid, particles, column):
+    low, high = (mean_path(data, solid, particles, f"{column}_{of}") for of in ("half", "double"))
+    common = [d for d in low[0] if d in high[0]]
+    if common:
+        axes.fill_between(common, [low[1][low[0].index(d)] for d in common], [high[1][high[0].index(d)] for d in common],
+                          color=COLOURS[solid], alpha=0.2, linewidth=0)
 
 
-def below(axes, data, names, steps, title, xlabel):
+def counting(data, out):
+    """Missing and redundant constraints, and C against 1/N."""
+    figure, (left, middle, right) = pyplot.subplots(1, 3, figsize=(WIDTH, 2.8), layout="constrained")
     for solid in SOLIDS:
-        rows = [(cumulative(r["bins"], names, steps), sum(sum(r["bins"][n][1]) for n in names))
-                for r in data.counted(solid, 400) if set(names) <= set(r.get("bins") or {})]
-        if rows:
-            every = sum(total for _, total in rows)
-            points = [(10 ** s, n / every, n ** 0.5 / every)
-                      for s, n in zip(steps, map(sum, zip(*(row for row, _ in rows)))) if n]
-            x, y, error = zip(*points)
-            axes.errorbar(x, y, error, marker=MARKERS[solid], color=COLOURS[solid], markersize=4, linewidth=0.8,
-                          label=f"{solid} 400")
-    axes.set(xscale="log", yscale="log", title=title, xlabel=xlabel, ylabel="cumulative share")
+        for axes, column in ((left, "missing"), (middle, "redundant")):
+            band(axes, data, solid, 100, column)
+            curve(axes, mean_path(data, solid, 100, column), solid)
+        for how, filled, shift in (("fit", False, 0.95), ("trough", True, 1.05)):
+            points = [(n, e) for n in data.sizes(solid) if (e := data.constraints(solid, n, how)) and e["half_width"]
+                      and e["n"] > 2]
+            if points:
+                x, y = [shift / n for n, _ in points], [e["mean"] for _, e in points]
+                wide = [e.get("systematic", 0) for _, e in points]
+                right.errorbar(x, y, wide, fmt="none", color=COLOURS[solid], elinewidth=5, alpha=0.3)
+                right.errorbar(x, y, [e["half_width"] for _, e in points], color=COLOURS[solid], elinewidth=0.8,
+                               marker=MARKERS[solid], markerfacecolor=None if filled else "white", linestyle="none")
+    sizes = [0.0008, 0.0225]
+    right.plot(sizes, [12 - 4 * x for x in sizes], "k:", linewidth=0.8)
+    left.set(xscale="log", xlabel="Δφ", ylabel="missing constraints m", ylim=(-0.03, 2.1))
+    middle.set(xscale="log", xlabel="Δφ", ylabel="states of self-stress S/N", ylim=(-0.03, 1.6))
+    right.set(xlabel="1/N", ylabel="C nearest jamming", xlim=(0, 0.0225), ylim=(11.2, 13.3))
+    solid_legend(left, loc="upper left")
+    for axes, name in zip((left, middle, right), "abc"):
+        letter(axes, name)
+    save(figure, out / "counting")
 
 
-def forces(data, out):
-    figure, two = pyplot.subplots(1, 2, figsize=(8.4, 3.2))
-    below(two[0], data, FORCES, STEPS_OF_FORCE, "Forces at the smallest Δφ", "f/⟨f⟩")
-    below(two[1], data, GAPS, STEPS_OF_GAP, "Gaps below 0.1 between faces and edges", "h, V$_p^{1/3}$")
-    two[0].legend(fontsize=7)
-    save(figure, out / "forces.png", 80)
+def frequencies(data, out):
+    """ω_l against the square roots of the moduli, and local exponents of E, K and ω_l."""
+    figure = pyplot.figure(figsize=(WIDTH, 4.8), layout="constrained")
+    grid = figure.add_gridspec(2, 6)
+    for place, (column, name) in enumerate((("root_G", "√G"), ("root_K", "√K"))):
+        axes = figure.add_subplot(grid[0, 3 * place:3 * place + 3])
+        for solid in SOLIDS:
+            x, soft, error = mean_path(data, solid, 400, "omega_l", logarithmic=True)
+            modulus = dict(zip(*mean_path(data, solid, 400, column, logarithmic=True)[:2]))
+            both = [i for i, d in enumerate(x) if d in modulus]
+            axes.errorbar([modulus[x[i]] for i in both], [soft[i] for i in both],
+                          [[side[i] for i in both] for side in error] if both else None, color=COLOURS[solid],
+                          marker=MARKERS[solid], elinewidth=0.8)
+        ends = {"root_G": (1e-6, 0.1), "root_K": (1e-5, 0.3)}[column]
+        axes.plot(ends, [0.13 * (2.5 if column == "root_G" else 0.3) * x for x in ends], "k--", linewidth=0.8)
+        axes.set(xscale="log", yscale="log", xlabel=f"{name}  (Y$^{{1/2}}$)", xlim=ends,
+                 ylabel="⟨ω$_l$⟩  (V$_p^{-1/3}$ (Y/ρ)$^{1/2}$)")
+        letter(axes, "ab"[place])
+        if not place:
+            solid_legend(axes, loc="lower right")
+    for place, (column, title, expected) in enumerate((("E", "E", 6), ("K", "K", 4), ("omega_l", "⟨ω$_l$⟩", 2))):
+        axes = figure.add_subplot(grid[1, 2 * place:2 * place + 2])
+        axes.axhline(expected, color="black", linewidth=0.8, linestyle=":")
+        for solid in SOLIDS:
+            found = [((a * b) ** 0.5, e) for a, b, e in zip(EDGES, EDGES[1:], data.exponents(solid, 400, column, EDGES))
+                     if e and e["n"] > 2 and e["half_width"] < 1]
+            if found:
+                x, y = [d for d, _ in found], [e["mean"] for _, e in found]
+                wide = [e["systematic"] for _, e in found]
+                axes.fill_between(x, [a - b for a, b in zip(y, wide)], [a + b for a, b in zip(y, wide)],
+                                  color=COLOURS[solid], alpha=0.25, linewidth=0)
+                axes.errorbar(x, y, [e["half_width"] for _, e in found], color=COLOURS[solid], marker=MARKERS[solid],
+                              elinewidth=0.8)
+        axes.set(xscale="log", xlabel="Δφ", ylabel=f"d ln {title} / d ln Δφ")
+        letter(axes, "cde"[place])
+    save(figure, out / "frequencies")
 
 
 def main():
-    data, out = Data(Path(sys.argv[1])), Path(sys.argv[2])
+    out, data = Path(sys.argv[1]), Data(*sys.argv[2:])
+    out.mkdir(parents=True, exist_ok=True)
     with matplotlib.rc_context(SETTINGS):
-        for draw in (soft, held, bands, angles, missing, forces):
+        for draw in (angles, counting, frequencies):
             draw(data, out)
 
 

@@ -1,43 +1,85 @@
-"""Updates the page from data: python3 page.py PAGE [-o OUT] [--data DIR] [--check]
+"""Makes README.md and tables.md: python3 page.py [--data FILE...] [-o OUT] [--check]"""
 
-PAGE holds blocks and numbers within sentences (see ../page/marks.py). They are made again from DIR/records.json (see
-gather.py; DIR is data by default). All else is unchanged. Writes to OUT, or to PAGE by default. With --check nothing is
-written, and a page that differs from its data is an error.
-"""
-
-import argparse
-import shutil
 import sys
 from pathlib import Path
 
-# data.py finds what pages have in common.
-from data import COMMITTED, Data
-from blocks import BLOCKS, value_of
-from marks import PageError, renewed
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "page"))
+
+import pages  # noqa: E402
+import values  # noqa: E402
+from counting import EDGES, FAR, drawn_size  # noqa: E402
+from data import SOLIDS  # noqa: E402
+from tables import TABLES, TILTS_AT, main_table  # noqa: E402, F401
+from text import number  # noqa: E402
+
+TITLE = "What makes a packing rigid"
+FILES = (HERE.parent / "paper/data/records.json", HERE / "data/records.json")
+ENTRIES = """An entry a ± b (n) is the mean a over n packings and half the width b of its 95 % confidence interval
+(Student t). A third number ± c is a systematic error, which the text defines. *Nearest* is the state nearest jamming of
+each packing. A dash means that the value is unknown."""
+BLOCKS = {"main": main_table}
+WITHOUT_TETRAHEDRA = SOLIDS[1:]
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("page", type=Path)
-    parser.add_argument("-o", "--out", type=Path)
-    parser.add_argument("--data", type=Path, default=COMMITTED)
-    parser.add_argument("--check", action="store_true")
-    arguments = parser.parse_args()
-    page = arguments.page.read_text(encoding="utf-8")
-    try:
-        made = renewed(page, BLOCKS, Data(arguments.data), value_of)
-    except PageError as error:
-        sys.exit(str(error))
-    if arguments.check:
-        sys.exit(0 if made == page else
-                 f"{arguments.page}: differs from {arguments.data}; page.py without --check updates it")
-    out = arguments.out or arguments.page
-    out.write_text(made, encoding="utf-8")
-    if out.parent.resolve() != arguments.page.parent.resolve():
-        for image in sorted(arguments.page.parent.glob("*.png")):
-            if not (out.parent / image.name).exists():
-                shutil.copy(image, out.parent)
+def far_exponents(data, column):
+    """Local exponents with N = 400 in the ranges of Δφ in FAR, with errors below 1."""
+    return [e for solid in SOLIDS for a, e in zip(EDGES, data.exponents(solid, 400, column, EDGES))
+            if FAR[0] <= a < FAR[1] and e and e["n"] > 2 and e["half_width"] < 1]
 
+
+def exponent_end(data, column, end):
+    means = [e["mean"] for e in far_exponents(data, column)]
+    return number(min(means) if end == "least" else max(means), 2) if means else "–"
+
+
+def among(data, column, end, places="1"):
+    """Least or greatest mean over octahedra, icosahedra and dodecahedra, N = 100, at TILTS_AT."""
+    means = [e["mean"] for s in WITHOUT_TETRAHEDRA if (e := data.at(s, 100, column, TILTS_AT))]
+    return number(min(means) if end == "least" else max(means), int(places)) if means else "–"
+
+
+value_of = values.value_of({
+    **values.VALUES, "exponent": exponent_end, "among": among,
+    "size": lambda data: str(drawn_size(data)), "isostatic": lambda data: values.against_isostatic(
+        data, "trough", drawn_size(data)),
+    "drawn": lambda data, how, solid: values.constraints(data, how, solid, drawn_size(data))})
+
+
+def identity_holds(data):
+    """True if C = 12 − 6/N − 2m + 2S/N in all states that have these values, within their rounding."""
+    checked = 0
+    for study in data.main():
+        for r in study["replicates"]:
+            states, n = r.get("states", {}), r["particles"]
+            for c, m, s in zip(states.get("C", ()), states.get("missing", ()), states.get("redundant", ())):
+                if None not in (c, m, s):
+                    checked += 1
+                    if abs(c - (12 - 6 / n - 2 * m + 2 * s)) > 0.006:
+                        return False
+    return checked > 100
+
+
+# Sentences of README.md that follow from the data only as long as these functions are true.
+CLAIMS = {
+    "Most vibrations of octahedra, icosahedra and dodecahedra near jamming are stiff because edges and faces resist "
+    "tilting, not because contacts resist compression.": lambda data: all(
+        data.at(s, 100, "held_by_second_each", TILTS_AT)["mean"] > 3 > 0.5 > data.at(
+            s, 100, "prestress_10_each", TILTS_AT)["mean"] for s in WITHOUT_TETRAHEDRA),
+    "one stiff tilt per edge-face contact and two per face-face contact": lambda data: all(
+        abs(data.at(s, 100, "stiff_tilts_ff", TILTS_AT)["mean"] - 2) < 0.3
+        and abs(data.at(s, 100, "stiff_tilts_ef", TILTS_AT)["mean"] - 1) < 0.15 for s in SOLIDS),
+    "C = 12 − 6/N − 2m + 2S/N holds in every state": identity_holds,
+    "Constraints are missing in icosahedra and dodecahedra, and redundant in tetrahedra and octahedra.": lambda data: all(
+        data.nearest(s, 100, "missing")["mean"] > 0.03 for s in SOLIDS[2:]) and all(
+        data.nearest(s, 100, "redundant")["mean"] > 0.03 for s in SOLIDS[:2]),
+    "⟨ω_l⟩ follows √G more closely than √K": lambda data: max(
+        abs(e["mean"]) for e in far_exponents(data, "omega_over_root_G")) < min(
+        e["mean"] for e in far_exponents(data, "omega_over_root_K")),
+    "Near-rattlers do not explain the missing constraints": lambda data: all(
+        data.at(s, 100, "backbone_m", TILTS_AT)["mean"] > 0.5 * data.at(s, 100, "missing", TILTS_AT)["mean"]
+        for s in SOLIDS[2:]),
+}
 
 if __name__ == "__main__":
-    main()
+    pages.main(sys.modules[__name__], HERE)

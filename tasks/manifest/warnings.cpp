@@ -18,8 +18,8 @@ namespace isojam {
 namespace {
 
 /// Known properties of the packings of a solid. `density` is the density near which they jam (Table I of the paper; for
-/// cubes, examples/paper/cubes.json). `stiffness` is the largest value of (E/N)/Δφ⁶ for Δφ from 0.004 to 0.05 and N =
-/// 64 to 100.
+/// cubes, sixteen compressions with N = 100). `stiffness` is the largest value of (E/N)/Δφ⁶ for Δφ from 0.004 to 0.05
+/// and N = 64 to 100.
 struct Known {
   SolidKind kind;
   double density, stiffness;

@@ -1,0 +1,185 @@
+"""Extracts the data of a page: python3 gather.py ISOJAM RESULTS FILE STUDY...
+
+Writes FILE from the results directories RESULTS/STUDY. It has, for each replicate, flags, cost, φ_J and the
+columns that the pages need of every state. It also has the troughs in the angles of all replicates together, which
+`isojam aggregate` finds, and the histograms of these angles. Numbers are rounded as in records.py. Incomplete studies
+count with the replicates that they have.
+"""
+
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+from records import found, records_of, write
+
+# Column of a state: where it is in the record.
+COLUMNS = {
+    "phi": "phi", "E": "energy_per_particle", "residual": "residual", "descents": "descents",
+    **{name: f"contacts/{name}" for name in ("Z", "Z_ff", "Z_ef", "Z_l", "C", "Z_ff_gap")},
+    **{f"{name}_fixed": f"contacts/fixed_cutoffs/{name}" for name in ("Z_ff", "Z_ef", "Z_l", "C")},
+    **{f"{name}_trough": f"contacts/trough/{name}" for name in ("Z_ff", "Z_ef", "C")},
+    "Q6": "order/Q6", "S": "clusters/S", "percolates": "clusters/percolates", "spans": "clusters/spans",
+    "l_max": "clusters/l_max", "body_l_max": "clusters/body_l_max", "D_max": "clusters/D",
+    "zero": "modes/zero", "negative": "modes/negative", "omega_l": "modes/omega_l", "omega_h": "modes/omega_h",
+    "amplitude": "modes/face_face_amplitude", "members": "modes/face_face_particles", "K": "moduli/K", "G": "moduli/G",
+    "self_stress": "rigidity/classes/self_stress", "floppy": "rigidity/classes/floppy",
+    "self_stress_trough": "rigidity/trough/self_stress", "floppy_trough": "rigidity/trough/floppy",
+    "floppy_normals": "rigidity/normals/floppy",
+    **{f"{key}_{name}": f"rigidity/scaled_cutoffs/{i}/{key}" for i, name in enumerate(("half", "double"))
+       for key in ("floppy", "self_stress", "constraints")},
+    "backbone_removed": "backbone/removed", "backbone_zero": "backbone/zero", "backbone_negative": "backbone/negative",
+    "backbone_missing": "backbone/classes/missing", "backbone_constraints": "backbone/classes/constraints",
+    "backbone_rank": "backbone/classes/rank",
+    **{f"unstable_{name}": f"difference_modes/{name}/share" for name in ("exact", "h4", "h6", "h8")},
+    "held_by_second": "prestress/modes/held_by_second",
+    **{f"prestress_{t}": f"prestress/modes/prestress_by_threshold/{i}/modes" for i, t in ((1, 3), (2, 10), (3, 30))},
+    **{f"{key}_{name}": f"prestress/by_class/{i}/{full}" for i, name in enumerate(("ff", "ef", "l"))
+       for key, full in (("contacts", "contacts"), ("tilts", "stiff_tilts"))}}
+FITS = {"cut_ff": "contacts/face_face_fit", "cut_ef": "contacts/edge_face_fit"}
+# Parameters of the protocol that a study may vary.
+VARIED = ("target_before_relaxation", "consolidation_step", "consolidation_evaluations")
+SPECTRUM_AT = 0.01  # Δφ of the spectra, the same for all solids
+BALANCED = 1e-3  # largest residual of a backbone whose ranks are used: the removed particles carry no force
+NEAR = 1.25  # factor between two values of Δφ that count as the same
+
+
+def bin_of(cutoff, width):
+    return math.floor(math.log10(cutoff) / width + 1e-9)
+
+
+def counts_below(numbers, end):
+    """Number of contacts in the bins below `end`."""
+    return sum(count for i, count in enumerate(numbers["counts"], numbers["first"]) if i < end)
+
+
+def constraints_by_gap(state, particles):
+    """C with the cut-offs in the gaps of the angles, from the histogram; None without both gaps. A cut-off within an
+    occupied bin moves to the lower edge of the bin."""
+    bins = found(state, "contacts/angle_bins")
+    gaps = [found(state, f"contacts/{kind}_gap") for kind in ("face_face", "edge_face")]
+    if not bins or any(found(gap, "verdict") != "separated" for gap in gaps):
+        return None
+    ff, ef = (bin_of(gap["cutoff"], bins["width"]) for gap in gaps)
+    flat = counts_below(bins["face_face"], ff)
+    edges = counts_below(bins["edge_face"], ef) - sum(n for a, b, n in bins["cells"] if a < ff and b < ef)
+    return state["contacts"]["Z"] + 2 * (2 * flat + edges) / particles
+
+
+def columns_of(states, particles):
+    """Columns that at least one state has."""
+    columns = {name: [found(state, place) for state in states] for name, place in COLUMNS.items()}
+    for name, place in FITS.items():
+        columns[name] = [found(s, f"{place}/cutoff") if found(s, f"{place}/verdict") == "fitted" else None
+                         for s in states]
+    for name in ("half", "double"):
+        columns[f"C_{name}"] = [None if n is None else 2 * n / particles for n in columns.pop(f"constraints_{name}")]
+    columns["C_gap"] = [constraints_by_gap(state, particles) for state in states]
+    for i, state in enumerate(states):
+        if (found(state, "backbone/residual") or 0) > BALANCED:
+            for name in ("missing", "constraints", "rank"):
+                columns[f"backbone_{name}"][i] = None
+    columns["backbone_self_stress"] = [None if None in pair else pair[0] - pair[1]
+                                       for pair in zip(columns["backbone_constraints"], columns["backbone_rank"])]
+    modes = [found(state, "modes/near_rattlers") for state in states]
+    columns["near_rattlers"] = [None if some is None else len(some) for some in modes]
+    return {name: values for name, values in columns.items() if any(value is not None for value in values)}
+
+
+def replicate_of(record, varied):
+    """Row of a replicate. If the study varies parameters of the protocol, it has these instead of the states."""
+    spec = record["spec"]
+    made = {"solid": spec["solid"], "particles": spec["particles"], "replicate": spec["replicate"],
+            "status": record["status"], "flags": record.get("flags") or [],
+            "cpu": record["timing"]["cpu_seconds"], "stages": record["timing"].get("stages", {})}
+    if varied:
+        made["setting"] = {key: spec["protocol"][key] for key in varied}
+    if record["status"] != "done":
+        return made
+    made |= {"phi_j": record["phi_j"]["phi_j"], "fit_window": spec["protocol"]["fit_window"]}
+    return made if varied else {**made, "states": columns_of(record["states"], spec["particles"])}
+
+
+def histogram(bins_of_states, kind, below=None):
+    """Sum of histograms, [first bin, counts]. Contacts with θ_ff in the bins below `below` are left out of θ_ef."""
+    sums = {}
+    for bins in bins_of_states:
+        for k, count in enumerate(bins[kind]["counts"], bins[kind]["first"]):
+            sums[k] = sums.get(k, 0) + count
+        for a, b, count in bins["cells"] if below is not None else ():
+            if a < below:
+                sums[b] -= count
+    used = [k for k, count in sums.items() if count]
+    return [min(used), [sums.get(k, 0) for k in range(min(used), max(used) + 1)]] if used else [0, []]
+
+
+def nearest_to(record, distance):
+    """The state nearest to a distance in ln Δφ, if it is within a factor NEAR; the last state if the distance is None."""
+    if distance is None:
+        return record["states"][-1]
+    states = [s for s in record["states"] if s["delta_phi"] > 0]
+    best = min(states, key=lambda s: abs(math.log(s["delta_phi"] / distance)), default=None)
+    return best if best and 1 / NEAR <= best["delta_phi"] / distance <= NEAR else None
+
+
+def trough_of(pooled, row, distance, records):
+    """Entry of the troughs of a row of the tables, with the histograms of the states at this distance."""
+    made = {"solid": row["solid"], "particles": row["particles"], "delta_phi": distance,
+            "replicates": pooled["replicates"], "face_face": pooled["face_face"], "edge_face": pooled["edge_face"]}
+    for name in ("Z_ff", "Z_ef", "C", "C_low", "C_high"):
+        estimate = pooled[name]
+        made[name] = {key: estimate[key] for key in ("mean", "half_width", "n")} if estimate["n"] else None
+    bins = [found(state, "contacts/angle_bins") for state in (nearest_to(r, distance) for r in records) if state]
+    bins = [one for one in bins if one]
+    if bins:
+        cutoff = pooled["face_face"].get("cutoff")
+        below = bin_of(cutoff, bins[0]["width"]) if cutoff else None
+        made |= {"width": bins[0]["width"], "packings": len(bins), "theta_ff": histogram(bins, "face_face"),
+                 "theta_ef": histogram(bins, "edge_face", below)}
+    return made
+
+
+def tables_of(isojam, directory):
+    command = [isojam, "aggregate", directory, "--format", "json", "--quiet"]
+    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+
+
+def spectrum_of(record):
+    """Lowest and highest frequencies of the state next to SPECTRUM_AT; None if there is no such state or spectrum."""
+    state = nearest_to(record, SPECTRUM_AT) or {}
+    ends = [found(state, f"modes/{end}/omega") for end in ("lowest", "highest")]
+    return {"delta_phi": state["delta_phi"], "lowest": ends[0], "highest": ends[1]} if all(ends) else None
+
+
+def study_of(isojam, directory):
+    tables = tables_of(isojam, directory)
+    records = [record for _, record in records_of(directory)]
+    varied = [key for key in VARIED if key in tables["rows"][0]["parameters"]]
+    made = {"git": sorted({r["provenance"]["git"] for r in records}), "exclude": tables["exclude"],
+            "critical_angles": {}, "spectra": {}, "troughs": []}
+    for row in [] if varied else tables["rows"]:
+        kept = [r for r in records if r["status"] == "done" and not set(tables["exclude"]) & set(r.get("flags") or ())
+                and (r["spec"]["solid"], r["spec"]["particles"]) == (row["solid"], row["particles"])]
+        if row.get("critical_angles"):
+            made["critical_angles"][row["solid"]] = row["critical_angles"]
+        spectra = [spectrum for spectrum in map(spectrum_of, kept) if spectrum]
+        if spectra:
+            made["spectra"][f"{row['solid']} {row['particles']}"] = spectra[0]
+        for distance, place in ((None, row), *((p["delta_phi"], p) for p in row.get("series", ()))):
+            if place.get("pooled_trough"):
+                made["troughs"].append(trough_of(place["pooled_trough"], row, distance, kept))
+    return {**made, "replicates": [replicate_of(record, varied) for record in records]}
+
+
+def main():
+    isojam, results, file, *studies = sys.argv[1:]
+    Path(file).parent.mkdir(parents=True, exist_ok=True)
+    missing = [name for name in studies if not (Path(results) / name / "records").is_dir()]
+    if missing:
+        sys.exit(f"{results}: there is no study {', '.join(missing)}; run it first, or leave it out of the command")
+    write(Path(file), {name: study_of(isojam, Path(results) / name) for name in studies})
+
+
+if __name__ == "__main__":
+    main()

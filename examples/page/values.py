@@ -1,0 +1,94 @@
+"""Numbers in sentences that both pages use: functions of the data and of words of a mark, which return text."""
+
+from data import PLURALS, SOLIDS
+from estimates import single_half_width
+from marks import PageError
+from text import interval, number, places_of, signed
+
+
+def estimate(data, column, solid, particles, distance=None):
+    """Mean and interval of a column, nearest jamming or at a distance."""
+    return interval(data.at(solid, int(particles), column, distance and float(distance)))
+
+
+def mean(data, column, solid, particles, distance=None):
+    found = data.at(solid, int(particles), column, distance and float(distance))
+    return number(found["mean"], places_of(found["half_width"] or 0)) if found else "–"
+
+
+def jamming_density(data, solid, particles):
+    return interval(data.phi_j(solid, int(particles)))
+
+
+def constraints(data, how, solid, particles):
+    """C without its errors, with two decimals."""
+    found = data.constraints(solid, int(particles), how)
+    return number(found["mean"], 2) if found else "–"
+
+
+def spread_range(data, particles):
+    """Smallest and largest half width of the prediction interval of φ_J over the solids."""
+    widths = [single_half_width(data.phi_j(solid, int(particles))) for solid in SOLIDS]
+    return f"{number(min(widths), 3)} to {number(max(widths), 3)}"
+
+
+def column_range(data, column, particles, places="1"):
+    """Smallest and largest mean over the solids nearest jamming, without solids that lack it."""
+    found = [e["mean"] for solid in SOLIDS if (e := data.nearest(solid, int(particles), column))]
+    return f"{number(min(found), int(places))} … {number(max(found), int(places))}" if found else "–"
+
+
+def protocol_end(data, end):
+    """The smallest or largest mean shift of φ_J by another compression protocol, over all solids."""
+    ranges = [data.protocol_range(solid) for solid in SOLIDS]
+    return signed(min(low for low, _ in ranges) if end == "least" else max(high for _, high in ranges), 3)
+
+
+def largest_systematic(data, particles):
+    """The largest error of C by the width of the trough over the solids."""
+    found = [e["systematic"] for solid in SOLIDS if (e := data.constraints(solid, int(particles), "trough"))]
+    return number(max(found), 2) if found else "–"
+
+
+def listed(solids):
+    names = [PLURALS[solid] for solid in solids]
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+
+
+def against_isostatic(data, how, particles):
+    """Sentences that compare C with 12 − 4/N: above, below or in agreement within the sum of its errors."""
+    places = {"above": [], "below": [], "near": []}
+    for solid in SOLIDS:
+        found = data.constraints(solid, int(particles), how)
+        if found:
+            off = found["mean"] - (12 - 4 / int(particles))
+            error = (found["half_width"] or 0) + found.get("systematic", 0)
+            places["near" if abs(off) <= error else "above" if off > 0 else "below"].append(solid)
+    text = {"above": "C of {} is above 12 − 4/N by more than its errors.",
+            "below": "C of {} is below 12 − 4/N by more than its errors.",
+            "near": "C of {} agrees with 12 − 4/N within its errors."}
+    return " ".join(text[place].format(listed(solids)) for place, solids in places.items() if solids) or "–"
+
+
+def minima(data, which, *sizes):
+    """Numbers of states nearest jamming: minima with three zero modes by all particles, by the backbone, or all."""
+    found = [data.minima(solid, int(n)) for solid in SOLIDS for n in sizes]
+    return str(sum(one[("whole", "backbone", "all").index(which)] for one in found))
+
+
+VALUES = {"at": estimate, "mean": mean, "phi_j": jamming_density, "C": constraints, "spread_range": spread_range,
+          "range": column_range, "protocol": protocol_end, "width": largest_systematic,
+          "against_isostatic": against_isostatic, "minima": minima}
+
+
+def value_of(functions):
+    """A function of (data, words of a mark) for these functions."""
+    def make(data, words):
+        name, *arguments = words.split()
+        if name not in functions:
+            raise PageError(f"there is no value named {name}; the values are {', '.join(sorted(functions))}")
+        try:
+            return functions[name](data, *arguments)
+        except (TypeError, ValueError) as error:
+            raise PageError(f"the data lack the value {words}: {error}") from error
+    return make

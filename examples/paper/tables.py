@@ -1,0 +1,248 @@
+"""Tables of the page and of tables.md."""
+
+import functools
+import statistics
+
+from comparison import (DICE, DICE_DENSITY, STABLE_FROM, drawn_size, figures_of, offset, region_two, uncertainty, within)
+from data import SOLIDS
+from estimates import difference_of
+from limits import limit
+from text import counted, interval, number, significant, signed, spread, table
+
+SIZES = (100, 400)
+DISTANCES = (0.04, 0.02, 0.01, 0.005, None)
+Z_WINDOW = (0, 0.08)
+
+
+def said(figure):
+    """The paper's value as text."""
+    if "digits" not in figure:
+        return significant(figure["value"], 4)
+    text = number(figure["value"], figure["digits"])
+    return text + (f" ± {number(figure['error'], figure['digits'])}" if "error" in figure else "")
+
+
+def paper_density(solid, particles):
+    return next(f for f in figures_of("Table I") if (f["solid"], f["particles"]) == (solid, particles))
+
+
+@functools.cache
+def contacts_at_jamming(data, solid, particles):
+    """Z_J of the fit Z = Z_J + b Δφ^x with free x."""
+    return limit([list(zip(x, y)) for x, y in data.paths(solid, particles, "Z")], Z_WINDOW, None)
+
+
+def minima_text(data, solid, particles):
+    whole, backbone, every = data.minima(solid, particles)
+    return f"{whole} + {backbone} of {every}" if every else "–"
+
+
+def summary(data):
+    size = drawn_size(data)
+    rows = []
+    for solid in SOLIDS:
+        low, high = data.protocol_range(solid)
+        density = data.phi_j(solid, 400)
+        rows.append([solid, interval(density), f"{signed(low, 3)} … {signed(high, 3)}", spread(density),
+                     said(paper_density(solid, 400)), interval(contacts_at_jamming(data, solid, 400)),
+                     interval(data.constraints(solid, size, "trough")), interval(data.constraints(solid, size, "fit")),
+                     number(12 - 4 / size, 2), minima_text(data, solid, 400)])
+    return table(["solid", "φ_J, N = 400", "shift of φ_J by the protocol", "one more packing", "φ_J, paper",
+                  "Z_J, N = 400", f"C by trough, N = {size}", f"C by fit, N = {size}", "12 − 4/N",
+                  "minima with three zero modes"], rows)
+
+
+def densities(data):
+    rows = []
+    for figure in figures_of("Table I"):
+        solid, n = figure["solid"], figure["particles"]
+        ours, off = data.phi_j(solid, n), offset(data, figure)
+        dice = DICE_DENSITY[solid]
+        rows.append([f"{solid} {n}", counted(ours), spread(ours), said(figure),
+                     f"{signed(off[0], 4)} ({signed(off[1], 1)})" if off else "–", within(data, figure, ours),
+                     f"{number(dice[0], 2)} ± {number(dice[1], 2)}"])
+    return table(["solid, N", "φ_J", "one more packing", "paper", "paper − ours (deviate)", "paper's value is in our",
+                  "dice"], rows)
+
+
+def sizes(data):
+    rows = []
+    for solid in SOLIDS:
+        small, large = ([r["phi_j"] for r in data.kept(solid, n)] for n in SIZES)
+        found = difference_of(small, large) if min(len(small), len(large)) > 1 else None
+        rows.append([solid, f"{signed(found['mean'], 4)} ± {number(found['half_width'], 4)}" if found else "–",
+                     signed(paper_density(solid, 400)["value"] - paper_density(solid, 100)["value"], 4)])
+    return table(["φ_J(N = 400) − φ_J(N = 100)", "ours", "paper"], rows)
+
+
+def protocols(data):
+    shifts = {solid: data.protocol_shifts(solid) for solid in SOLIDS}
+    rows = []
+    for setting in sorted({s for found in shifts.values() for s in found}):
+        before, step, budget = setting
+        cells = [found.get(setting) for found in shifts.values()]
+        rows.append(["before" if before else "after", number(step, 3), str(budget),
+                     *(counted({**e, "mean": 1e4 * e["mean"], "half_width": 1e4 * e["half_width"]}) if e else "–"
+                       for e in cells)])
+    return table(["energy", "step", "evaluations", *SOLIDS], rows)
+
+
+def constraints(data):
+    rows = []
+    for solid in SOLIDS:
+        for n in data.sizes(solid):
+            for how in ("trough", "fit", "gap"):
+                cells = [data.constraints(solid, n, how, d) for d in DISTANCES]
+                if any(cells):
+                    rows.append([f"{solid} {n}", how, *map(counted, cells)])
+    return table(["solid, N", "cut-off", *(f"Δφ = {d}" if d else "nearest" for d in DISTANCES)], rows)
+
+
+def angles(data):
+    rows = []
+    known = {k: v for study in data.main() for k, v in study.get("critical_angles", {}).items()}
+    for solid in SOLIDS:
+        here = [f for f in figures_of("Table II") if f["solid"] == solid]
+        if solid in known:
+            equal = all(abs(known[solid][f["column"]] - f["value"]) <= uncertainty(f) + 1e-9 for f in here)
+            rows.append([solid, *(f"{known[solid][f['column']]:.2f} ({f['value']:.1f})" for f in here),
+                         "yes" if equal else "**no**"])
+    return table(["ours (paper's), degrees", "θ_ef, vertex-face", "θ_ef, edge-edge", "θ_ff, vertex-face",
+                  "θ_ff, edge-edge", "θ_ff, edge-face", "equal to the last digit"], rows)
+
+
+def compared(data, figure, distance):
+    if figure["column"] == "C":
+        return data.constraints(figure["solid"], figure["particles"], "fit", distance)
+    return data.at(figure["solid"], figure["particles"], figure["column"], distance)
+
+
+def table_iii(data):
+    rows = []
+    for place, cutoffs in (("Table III, column 1", "fitted"), ("Table III, column 2", "5°, 15° … 55°")):
+        for figure in figures_of(place):
+            ours = compared(data, figure, figure["delta_phi"])
+            name = figure["column"].removesuffix("_fixed")
+            rows.append([name, cutoffs, counted(ours), spread(ours), said(figure), within(data, figure, ours),
+                         DICE[name]])
+    return table(["quantity", "cut-offs", "ours", "one more packing", "paper", "paper's value is in our", "dice"], rows)
+
+
+def table_iv(data):
+    rows = []
+    names = {"l_max": "l_max/L, centres", "body_l_max": "l_max/L, vertices"}
+    for figure in figures_of("Table IV"):
+        solid, particles, column = figure["solid"], figure["particles"], figure["column"]
+        ours = data.at(solid, particles, column, STABLE_FROM[solid])
+        extents = [v for _, y in data.paths(solid, particles, column) for v in y if v is not None and column in names]
+        rows.append([solid, names.get(column, column), counted(ours), counted(data.nearest(solid, particles, column)),
+                     number(max(extents), 2) if extents else "–", said(figure), within(data, figure, ours)])
+    return table(["solid", "quantity", "at the paper's Δφ", "nearest jamming", "largest of all states", "paper",
+                  "paper's value is in our"], rows)
+
+
+def high_modes(data):
+    rows = []
+    for solid in SOLIDS:
+        for n in SIZES:
+            columns = [data.nearest(solid, n, name) for name in ("members", "amplitude", "omega_h")]
+            rows.append([f"{solid} {n}", *map(counted, columns)])
+    return table(["solid, N", "share of particles with a face-face contact", "their share of the squared amplitude",
+                  "⟨ω_h⟩"], rows)
+
+
+def minima(data):
+    rows = []
+    for solid in SOLIDS:
+        for n in SIZES:
+            kept = data.kept(solid, n)
+            last = [{k: v[-1] for k, v in r["states"].items()} for r in kept]
+            whole, backbone, every = data.minima(solid, n)
+            negative = sum((s.get("negative") or 0) > 0 for s in last)
+            rattlers = sum((s.get("near_rattlers") or 0) > 0 for s in last)
+            states = [(z, m) for r in kept for z, m in zip(r["states"].get("zero", ()), r["states"].get("negative", ()))]
+            rows.append([f"{solid} {n}", str(every), str(whole), str(backbone), str(negative), str(rattlers),
+                         f"{sum(s == (3, 0) for s in states)} of {len(states)}"])
+    return table(["solid, N", "nearest states", "minima, all particles", "minima, backbone only", "negative mode",
+                  "with near-rattlers", "minima of all states, all particles"], rows)
+
+
+def unstable(data):
+    names = ("exact", "h8", "h6", "h4")
+    rows = []
+    for solid in SOLIDS:
+        for distance in (0.04, 0.01, None):
+            cells = [data.at(solid, 100, f"unstable_{name}", distance) for name in names]
+            if any(cells):
+                rows.append([solid, str(distance or "nearest"), *(counted(e and {
+                    **e, "mean": 100 * e["mean"], "half_width": 100 * (e["half_width"] or 0)}) for e in cells)])
+    return table(["solid, N = 100", "Δφ", "analytic, %", "h = 10⁻⁸, %", "h = 10⁻⁶, %", "h = 10⁻⁴, %"], rows)
+
+
+def region_two_ratios(data):
+    """For each solid with known angles: its name, the end of region 2 in degrees, and the ratio of densities."""
+    size, found = drawn_size(data), []
+    known = {k: v for study in data.main() for k, v in study.get("critical_angles", {}).items()}
+    for solid in SOLIDS:
+        entry = data.trough(solid, size)
+        if entry and solid in known and "theta_ff" in entry:
+            critical = min(v for name, v in known[solid].items() if name.startswith("ff"))
+            found.append((solid, critical, region_two(entry["theta_ff"], entry["width"], critical)))
+    return found
+
+
+def uniformity(data):
+    rows = [[f"{solid} {drawn_size(data)}", f"1° … {number(critical, 1)}°", interval(ratio)]
+            for solid, critical, ratio in region_two_ratios(data)]
+    return table(["solid, N", "region 2", "density of the upper half / density of the lower half"], rows)
+
+
+def cost(data):
+    rows, stages = [], {}
+    for name, study in data.studies.items():
+        for solid in SOLIDS:
+            some = [r for r in study["replicates"] if r["solid"] == solid]
+            if some:
+                seconds = [r["cpu"] for r in some]
+                rows.append([name, solid, str(len(some)), str(sum(r["status"] != "done" for r in some)),
+                             f"{statistics.median(seconds):.0f}", f"{sum(seconds) / 60:.1f}"])
+            for r in some:
+                for stage, time in r["stages"].items():
+                    stages[stage] = stages.get(stage, 0) + time
+    commits = sorted({commit for study in data.studies.values() for commit in study["git"]})
+    total = sum(stages.values())
+    return (table(["study", "solid", "replicates", "failed", "CPU time, median, s", "all, minutes"], rows) + "\n" +
+            table(["stage", "share of the CPU time, %"], [[f"`{stage}`", number(100 * t / total, 1)] for stage, t in
+                                                          sorted(stages.items(), key=lambda item: -item[1])]) +
+            f"\nThe records were made by commits {', '.join(commits)}.\n")
+
+
+TABLES = (
+    ("Jamming density", """The deviate is the offset in standard deviations of a normal distribution with the same
+     probability. It assumes that the paper's value is the φ_J of one packing like ours. The dice are rounded dice in a
+     box, which the paper quotes.""", densities),
+    ("Finite-size effect of the jamming density", "The interval is that of Welch's t.", sizes),
+    ("Shift of the jamming density by the compression protocol", """Paired differences of φ_J in units of 10⁻⁴ (N = 100,
+     same initial configurations): the protocol of the row minus ours. Ours compares the energy after relaxation with the
+     target, and uses a strain step of 0.02 and 2000 evaluations. A dash means fewer than three pairs.""", protocols),
+    ("C by three classifications", """The second error of C by trough is its change within the trough. That of C by fit is
+     half its range from half to twice the fitted cut-offs. C by gap exists only if both angles have a gap.""",
+     constraints),
+    ("Table II of the paper: critical angles", "Our values are computed from closed forms.", angles),
+    ("Table III of the paper: tetrahedra, N = 100, Δφ = 0.04", "The dice are those of Jaoshvili et al. (2010).", table_iii),
+    ("Table IV of the paper: clusters", """Clusters of face-face contacts, N = 400. We compare at the smallest Δφ at which the
+     paper's packings were stable: 0.04 for tetrahedra, 0.02 for octahedra, 0.01 for the others. The extent l_max of a
+     cluster is measured between centres or between vertices. The paper does not define it. "Largest of all states" is the
+     largest extent over all packings and all Δφ.""", table_iv),
+    ("High-frequency modes", """Squared amplitude of the fifty highest modes on particles that have a face-face contact,
+     in the states nearest jamming.""", high_modes),
+    ("Minima", """A state is a minimum if it has three zero modes and no negative mode. If softest modes cannot be
+     distinguished from zero in double precision, or if there are near-rattlers, the backbone is examined instead.""",
+     minima),
+    ("Negative modes by central differences", """Share of negative modes of the analytic dynamical matrix, and of
+     matrices from central differences of forces with the step h (V_p^(1/3)). The paper's stability analysis used central
+     differences.""", unstable),
+    ("Is region 2 of c(θ_ff) uniform?", """The paper states that θ_ff is uniform between 1° and the smallest critical
+     angle. The ratio of densities would then be 1. Its interval is that of Poisson noise.""", uniformity),
+    ("Cost", "CPU times on one core of an AMD EPYC that also ran other work.", cost),
+)

@@ -1,0 +1,168 @@
+"""Tables of the page and of tables.md."""
+
+import math
+
+from counting import EDGES, WINDOWS, drawn_size, infinite, limit_at_jamming
+from data import SOLIDS
+from text import counted, interval, number, significant, table
+
+DISTANCES = (0.04, 0.02, 0.01, 0.005, 0.0025, 0.001, None)
+TILTS_AT = 0.001  # Δφ at which modes and tilts are compared: nearer to jamming, softest modes are unresolved
+MODES = "modes per particle with less than half from"
+COLUMNS = [f"Δφ = {d}" if d else "nearest" for d in DISTANCES]
+
+
+def by_size(data, columns, distances=DISTANCES):
+    """Rows for each solid, size and column at some distances; rows without values are left out."""
+    rows = []
+    for solid in SOLIDS:
+        for n in data.sizes(solid):
+            for column, name in columns.items():
+                cells = [data.at(solid, n, column, d) for d in distances]
+                if any(cells):
+                    rows.append([f"{solid} {n}", name, *map(counted, cells)])
+    return table(["solid, N", "quantity", *COLUMNS[-len(distances):]], rows)
+
+
+def with_range(data, solid, particles, column):
+    """Estimate nearest jamming with half its range from half to twice the fitted cut-offs."""
+    found = data.nearest(solid, particles, column)
+    half, double = (data.nearest(solid, particles, f"{column}_{of}") for of in ("half", "double"))
+    return {**found, "systematic": abs(double["mean"] - half["mean"]) / 2} if found and half and double else found
+
+
+def main_table(data):
+    size = drawn_size(data)
+    rows = [[name, *cells] for name, cells in (
+        (f"C by trough, N = {size}", [interval(data.constraints(s, size, "trough")) for s in SOLIDS]),
+        (f"C by fit, N = {size}", [interval(data.constraints(s, size, "fit")) for s in SOLIDS]),
+        (f"m by trough, N = {size}", [interval(data.nearest(s, size, "missing_trough")) for s in SOLIDS]),
+        (f"m by fit, N = {size}", [interval(with_range(data, s, size, "missing")) for s in SOLIDS]),
+        (f"S/N by trough, N = {size}", [interval(data.nearest(s, size, "redundant_trough")) for s in SOLIDS]),
+        (f"S/N by fit, N = {size}", [interval(with_range(data, s, size, "redundant")) for s in SOLIDS]),
+        (f"m by fit, N = 100, Δφ = {TILTS_AT}", [interval(data.at(s, 100, "missing", TILTS_AT)) for s in SOLIDS]),
+        ("the same without near-rattlers", [interval(data.at(s, 100, "backbone_m", TILTS_AT)) for s in SOLIDS]),
+        ("m by normals only, N = 100", [interval(data.nearest(s, 100, "missing_normals")) for s in SOLIDS]),
+        (f"{MODES} normals, N = 100", [interval(data.at(s, 100, "held_by_second_each", TILTS_AT)) for s in SOLIDS]),
+        (f"{MODES} normals and stiff tilts, N = 100", [interval(data.at(s, 100, "prestress_10_each", TILTS_AT))
+                                                       for s in SOLIDS]),
+        ("stiff tilts per face-face contact, N = 100", [interval(data.at(s, 100, "stiff_tilts_ff", TILTS_AT)) for s in SOLIDS]),
+        ("stiff tilts per edge-face contact, N = 100", [interval(data.at(s, 100, "stiff_tilts_ef", TILTS_AT)) for s in SOLIDS]),
+        ("stiff tilts per other contact, N = 100", [interval(data.at(s, 100, "stiff_tilts_l", TILTS_AT)) for s in SOLIDS]))]
+    return table(["nearest jamming", *SOLIDS], rows)
+
+
+def troughs(data):
+    rows = []
+    for solid in SOLIDS:
+        for n in data.sizes(solid):
+            for distance in (*sorted(data.trough_distances(solid, n), reverse=True), None):
+                entry = data.trough(solid, n, distance)
+                if not entry:
+                    continue
+                cells = []
+                for kind in ("face_face", "edge_face"):
+                    found = entry[kind]
+                    known = "cutoff" in found
+                    cells += [f"{number(math.log10(found['cutoff']), 1)} ({number(math.log10(found['low']), 1)} … "
+                              f"{number(math.log10(found['high']), 1)})" if known else "undecided",
+                              significant(found["density"], 2) if known else "–"]
+                rows.append([f"{solid} {n}", str(distance or "nearest"), str(entry["replicates"]), *cells])
+    return table(["solid, N", "Δφ", "packings", "θ_ff: log10 of the cut-off (edges)", "density",
+                  "θ_ef: log10 of the cut-off (edges)", "density"], rows)
+
+
+def counts(data):
+    return by_size(data, {"missing": "m", "redundant": "S/N", "missing_trough": "m, trough",
+                          "redundant_trough": "S/N, trough"})
+
+
+def cutoffs(data):
+    return by_size(data, {"missing_half": "m, cut-offs × ½", "missing_double": "m, cut-offs × 2",
+                          "redundant_half": "S/N, cut-offs × ½", "redundant_double": "S/N, cut-offs × 2"})
+
+
+def limits(data):
+    rows = []
+    for solid in SOLIDS:
+        for n in data.sizes(solid):
+            found = [limit_at_jamming(data, solid, n, c) for c in ("C", "missing", "redundant")]
+            if any(found):
+                rows.append([f"{solid} {n}", *map(counted, found), number(12 - 4 / n, 2)])
+        at_infinity = [infinite(data, solid, c) for c in ("C", "missing", "redundant")]
+        rows.append([f"{solid}, N → ∞", *map(interval, at_infinity), "12"])
+    return table(["solid, N", "C", "m", "S/N", "12 − 4/N"], rows)
+
+
+def near_rattlers(data):
+    rows = []
+    columns = ("backbone_removed", "missing", "backbone_m", "redundant", "backbone_redundant", "C", "backbone_C")
+    for solid in SOLIDS:
+        for n in data.sizes(solid):
+            for distance in (0.005, TILTS_AT, None):
+                cells = [data.at(solid, n, name, distance) for name in columns]
+                if cells[0]:
+                    rows.append([f"{solid} {n}", str(distance or "nearest"), *map(counted, cells)])
+    return table(["solid, N", "Δφ", "near-rattlers removed", "m, all", "m, backbone", "S/N, all", "S/n, backbone",
+                  "C, all", "C, backbone"], rows)
+
+
+def exponents(data):
+    rows = []
+    for solid in SOLIDS:
+        for n in (100, 400):
+            for column, name in (("E", "E"), ("K", "K"), ("G", "G"), ("omega_l", "⟨ω_l⟩"),
+                                 ("omega_over_root_G", "⟨ω_l⟩/√G"), ("omega_over_root_K", "⟨ω_l⟩/√K")):
+                cells = [e if e and e["n"] > 2 and e["half_width"] + e["systematic"] < 1 else None
+                         for e in data.exponents(solid, n, column, EDGES)]
+                if any(cells):
+                    rows.append([f"{solid} {n}", name, *map(counted, cells)])
+    return table(["solid, N", "quantity", *(f"{a} – {b}" for a, b in zip(EDGES, EDGES[1:]))], rows)
+
+
+def waves(data):
+    return by_size(data, {"wave": "⟨ω_l⟩ / longest transverse wave"})
+
+
+def modes(data):
+    return by_size(data, {"held_by_second_each": "normals < ½", "prestress_10_each": "normals and tilts (s > 10) < ½",
+                          "prestress_3_each": "the same, s > 3", "prestress_30_each": "the same, s > 30",
+                          "stiff_tilts_ff": "stiff tilts, face-face", "stiff_tilts_ef": "stiff tilts, edge-face",
+                          "stiff_tilts_l": "stiff tilts, others"})
+
+
+def cost(data):
+    rows, total = [], 0
+    for name, study in data.studies.items():
+        for solid in SOLIDS:
+            some = [r for r in study["replicates"] if r["solid"] == solid]
+            if some and name != "paper-protocol":
+                seconds = sum(r["cpu"] for r in some)
+                total += seconds
+                rows.append([name, f"{solid} {some[0]['particles']}", str(len(some)), f"{seconds / 60:.1f}"])
+    return table(["study", "solid, N", "replicates", "CPU time, minutes"], rows) + \
+        f"\nAll together took {total / 60:.0f} CPU minutes.\n"
+
+
+TABLES = (
+    ("Troughs in the densities of log θ", """Cut-offs and edges in radians, and the density at the cut-off per particle
+     and decade. *Undecided* means that the density has no significant trough.""", troughs),
+    ("Missing and redundant constraints", """m is the number of missing constraints per particle, (6N − 3 − rank)/N. S is
+     the number of states of self-stress. Classes are by fit, unless the quantity names the trough.""", counts),
+    ("Effect of the fitted cut-offs", "Both fitted cut-offs are halved or doubled.", cutoffs),
+    ("Limits at jamming", f"""Each limit is a in the fit a + b Δφ^x to all packings (classes by fit). The first error is
+     the 95 % interval by bootstrap. The second is half the range over x = ½, 1 and free, and over the windows Δφ <
+     {', '.join(str(high) for _, high in WINDOWS)}. If a free exponent is at an end of its grid (0.2 … 2), it is not used.
+     The limit N → ∞ is linear in 1/N. The same forms and windows are used for C, m and S/N.""", limits),
+    ("Without near-rattlers", """Near-rattlers are removed until none is left. n is the number of particles that remain.
+     Ranks of a backbone are used only if the removed particles carried no force. Nearest jamming, softest modes that
+     cannot be distinguished from zero make particles look like near-rattlers.""", near_rattlers),
+    ("Local exponents", """Mean slopes d ln y/d ln Δφ between neighbouring states in the range of Δφ at the head of the
+     column. The systematic error is half the range over three fit windows of φ_J. Values with errors above 1 are left
+     out.""", exponents),
+    ("Softest modes and shear waves", "⟨ω_l⟩ divided by 2π/L √(G/ρφ), the frequency of the longest transverse wave.", waves),
+    ("Normals, tilts and prestress", """Modes per particle in which the normals, or the normals and stiff tilts together,
+     contribute less than half of the stiffness, and stiff tilts per contact. A tilt with the stiffness κ is stiff if s =
+     κR/f > 10, with the radius of gyration R and the force f of the contact.""", modes),
+    ("Cost", "CPU times on one core of an AMD EPYC that also ran other work.", cost),
+)

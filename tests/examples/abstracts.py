@@ -1,0 +1,255 @@
+"""Recomputes the numbers of the abstracts of examples/paper and examples/rigidity with code of its own.
+
+usage: abstracts.py README.md DATA.json...                       # from data files
+       abstracts.py README.md --results ISOJAM DIRECTORY...      # from records and exported contacts
+
+Prints one line for each number of the abstract: its value on the page, the recomputed value, and the allowed
+difference. The exit code is 1 if a number differs by more. C by trough has a larger allowed difference than others,
+because the trough is found by another method: the smallest number of angles in a sliding window of 0.4 decades.
+"""
+
+import csv
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+import numpy
+from scipy import optimize, stats
+
+SOLIDS = ("tetrahedron", "octahedron", "icosahedron", "dodecahedron")
+BETWEEN = {"theta_ff": (-4.4, -1.4), "theta_ef": (-4.4, -2.0)}  # log10 of the angles between which a trough may be
+PAPER = {("tetrahedron", 100): 0.629, ("tetrahedron", 400): 0.634, ("octahedron", 100): 0.6796,
+         ("octahedron", 400): 0.686, ("icosahedron", 100): 0.6953, ("icosahedron", 400): 0.7008,
+         ("dodecahedron", 100): 0.7065, ("dodecahedron", 400): 0.7085}
+ISOSTATIC = r"(C of ([a-z, ]+?) (is above|is below|agrees with) 12 − 4/N[^.]*\.)"
+STANDARD = [False, 0.02, 2000]  # compression protocol of the main studies
+
+
+def from_files(files):
+    """Rows, one for each packing that means use, and pooled angles {(solid, N): {name: (edges, numbers)}}."""
+    rows, pooled = [], {}
+    for file in files:
+        for name, study in json.loads(pathlib.Path(file).read_text(encoding="utf-8")).items():
+            for r in study["replicates"]:
+                if r["status"] == "done" and not set(study["exclude"]) & set(r["flags"]):
+                    rows.append({**r, "varied": "setting" in r})
+                    if "bins" in r:
+                        add_bins(pooled, r)
+            for entry in study.get("troughs", ()):
+                if entry["delta_phi"] is None and "theta_ef" in entry:
+                    pooled[entry["solid"], entry["particles"]] = {
+                        angle: histogram(entry[angle][0] * entry["width"], entry["width"], entry[angle][1])
+                        for angle in BETWEEN} | {"packings": entry["packings"], "apart": True}
+    return rows, pooled
+
+
+def histogram(first, width, counts):
+    return first + width * numpy.arange(len(counts) + 1), numpy.array(counts, float)
+
+
+def add_bins(pooled, r):
+    here = pooled.setdefault((r["solid"], r["particles"]), {"packings": 0, "apart": False})
+    here["packings"] += 1
+    for angle in BETWEEN:
+        edges, counts = histogram(r["bins"][angle][0], 0.2, r["bins"][angle][1])
+        here[angle] = (edges, counts + here[angle][1] if angle in here else counts)
+
+
+def from_results(isojam, directories):
+    """The same from records, with the angles of the exported contacts of the states nearest jamming."""
+    rows, pooled = [], {}
+    for directory in map(pathlib.Path, directories):
+        tables = json.loads((directory / "tables.json").read_text(encoding="utf-8"))
+        excluded, varied = set(tables["exclude"]), any(row["parameters"] for row in tables["rows"])
+        for path in sorted((directory / "records").glob("*.json")):
+            record = json.loads(path.read_text(encoding="utf-8"))
+            if record["status"] != "done" or excluded & set(record.get("flags") or ()):
+                continue
+            rows.append(row_of(record, varied))
+            if not varied:
+                add_contacts(pooled, rows[-1], isojam, directory, path.stem)
+    return rows, pooled
+
+
+def row_of(record, varied):
+    spec, states = record["spec"], record["states"]
+    row = {"solid": spec["solid"], "particles": spec["particles"], "replicate": spec["replicate"], "varied": varied,
+           "phi_j": record["phi_j"]["phi_j"], "fit_window": spec["protocol"]["fit_window"],
+           "setting": {key: spec["protocol"][key] for key in (
+               "target_before_relaxation", "consolidation_step", "consolidation_evaluations")}}
+    row["states"] = {"phi": [s["phi"] for s in states], "Z": [s["contacts"]["Z"] for s in states],
+                     "E": [s["energy_per_particle"] for s in states]}
+    modes = [s.get("prestress", {}).get("modes", {}) for s in states]
+    if any(modes):
+        row["states"]["held_by_second"] = [m.get("held_by_second") for m in modes]
+        row["states"]["prestress_10"] = [m["prestress_by_threshold"][2]["modes"] if m else None for m in modes]
+    return row
+
+
+def add_contacts(pooled, row, isojam, directory, name):
+    export = subprocess.run([isojam, "export", directory, name, "--format", "contacts"], check=True,
+                            capture_output=True, text=True).stdout
+    angles = {angle: [max(float(line[angle]), 1e-12) for line in csv.DictReader(export.splitlines())]
+              for angle in BETWEEN}
+    here = pooled.setdefault((row["solid"], row["particles"]), {"packings": 0, "apart": False})
+    here["packings"] += 1
+    for angle, values in angles.items():
+        counts, edges = numpy.histogram(numpy.log10(values), numpy.arange(-12, 0.65, 0.1))
+        here[angle] = (edges, counts + here[angle][1] if angle in here else counts.astype(float))
+
+
+def antimode(edges, counts, between):
+    """Index of the edge in the middle of the emptiest window of 0.4 decades."""
+    half = max(1, round(0.2 / (edges[1] - edges[0])))
+    inside = [k for k in range(half, len(counts) - half + 1) if between[0] <= edges[k] + 1e-9 <= between[1] + 2e-9]
+    numbers = [counts[k - half:k + half].sum() for k in inside]
+    least = [k for k, n in zip(inside, numbers) if n == min(numbers)]
+    return least[len(least) // 2]
+
+
+def constraints_by_trough(rows, pooled, solid, particles, decades=0):
+    """Mean C over the packings, from the pooled numbers of angles below both troughs, moved by some decades."""
+    here = pooled[solid, particles]
+    scale, below = 2 / (particles * here["packings"]), {}
+    for angle in BETWEEN:
+        edges, counts = here[angle]
+        moved = antimode(edges, counts, BETWEEN[angle]) + round(decades / (edges[1] - edges[0]))
+        below[angle] = scale * counts[:moved].sum()
+    z = numpy.mean([r["states"]["Z"][-1] for r in of(rows, solid, particles)])
+    # θ_ef below the trough belongs to face-face contacts too, unless these were left out: C = Z + 2·n_ff + n_ef.
+    return z + below["theta_ff"] * (2 if here["apart"] else 1) + below["theta_ef"]
+
+
+def of(rows, solid, particles):
+    return [r for r in rows if (r["solid"], r["particles"], r["varied"]) == (solid, particles, False)]
+
+
+def density_of(row):
+    """φ_J by a line through (E/N)^(1/6), in the window of the row."""
+    phi, root = numpy.array(row["states"]["phi"]), numpy.array(row["states"]["E"]) ** (1 / 6)
+    found = row["phi_j"]
+    for _ in range(30):
+        inside = phi - found < row["fit_window"]
+        slope, intercept = numpy.polyfit(phi[inside], root[inside], 1)
+        found = -intercept / slope
+    return found
+
+
+def contacts_at_jamming(rows, solid):
+    points = [(p - r["phi_j"], z) for r in of(rows, solid, 400) for p, z in zip(r["states"]["phi"], r["states"]["Z"])]
+    x, y = numpy.array([p for p in points if 0 <= p[0] < 0.08]).T
+
+    def fit(exponent):
+        columns = numpy.vander(x ** exponent, 2)
+        solution, *_ = numpy.linalg.lstsq(columns, y, rcond=None)
+        return solution, ((columns @ solution - y) ** 2).sum()
+
+    best = optimize.minimize_scalar(lambda e: fit(e)[1], bounds=(0.2, 2), method="bounded").x
+    return fit(best)[0][1]
+
+
+def at(row, column, distance):
+    """Value of a column at Δφ, linear in ln Δφ."""
+    points = [(numpy.log(p - row["phi_j"]), v) for p, v in zip(row["states"]["phi"], row["states"][column])
+              if v is not None and p > row["phi_j"]]
+    x, y = zip(*sorted(points))
+    return float(numpy.interp(numpy.log(distance), x, y)) if x[0] <= numpy.log(distance) <= x[-1] else None
+
+
+def at_all(rows, solid, column):
+    found = [at(r, column, 0.001) for r in of(rows, solid, 100) if column in r["states"]]
+    return numpy.mean([value / 100 for value in found if value is not None])
+
+
+def spread(values):
+    n = len(values)
+    return stats.t.ppf(0.975, n - 1) * numpy.std(values, ddof=1) * numpy.sqrt(1 + 1 / n)
+
+
+def shifts(rows):
+    """Mean paired shifts of φ_J by other protocols, with at least three pairs."""
+    found = []
+    for solid in SOLIDS:
+        varied = {(tuple(r["setting"].values()), r["replicate"]): r["phi_j"] for r in rows
+                  if r["varied"] and r["solid"] == solid}
+        for setting in {s for s, _ in varied} - {tuple(STANDARD)}:
+            pairs = [phi - varied[tuple(STANDARD), i] for (s, i), phi in varied.items()
+                     if s == setting and (tuple(STANDARD), i) in varied]
+            if len(pairs) >= 3:
+                found.append(numpy.mean(pairs))
+    return min([0, *found]), max([0, *found])
+
+
+def paper_numbers(rows, pooled, size):
+    """Recomputed numbers of the paper's abstract, in their order: (name, value, allowed difference)."""
+    z = [contacts_at_jamming(rows, solid) for solid in SOLIDS]
+    phi = {key: [density_of(r) for r in of(rows, *key)] for key in PAPER}
+    widths = [spread(phi[solid, 400]) for solid in SOLIDS]
+    low, high = shifts(rows)
+    return [("N", 400, 0), ("Z_J, least", min(z), 0.051), ("Z_J, greatest", max(z), 0.051), ("12", 12, 0),
+            *((f"C by trough, {s}", constraints_by_trough(rows, pooled, s, size), 0.12) for s in SOLIDS),
+            ("C within the trough", max(
+                constraints_by_trough(rows, pooled, s, size, 0.2) - constraints_by_trough(rows, pooled, s, size, -0.2)
+                for s in SOLIDS) / 2, 0.06), ("year", 2011, 0),
+            ("largest offset of φ_J", max(abs(PAPER[k] - numpy.mean(v)) for k, v in phi.items()), 0.00051),
+            ("spread, least", min(widths), 0.00051), ("spread, greatest", max(widths), 0.00051),
+            ("shift, least", low, 0.00051), ("shift, greatest", high, 0.00051)]
+
+
+def rigidity_numbers(rows, pooled, size):
+    held = [at_all(rows, s, "held_by_second") for s in SOLIDS[1:]]
+    left = [at_all(rows, s, "prestress_10") for s in SOLIDS[1:]]
+    return [("normals below half, least", min(held), 0.051), ("normals below half, greatest", max(held), 0.051),
+            ("modes per particle", 6, 0), ("modes left", max(left), 0.0051), ("12", 12, 0), ("6", 6, 0), ("2", 2, 0),
+            ("2", 2, 0), *((f"C by trough, {s}", constraints_by_trough(rows, pooled, s, size), 0.12) for s in SOLIDS)]
+
+
+def abstract_of(readme):
+    page = re.sub(r"<!--.*?-->", "", pathlib.Path(readme).read_text(encoding="utf-8"))
+    text = re.search(r"\*\*Abstract\.\*\*(.*?)\n\n", page, re.S)[1]
+    # Sentences about 12 − 4/N have no measured number.
+    return re.sub(ISOSTATIC, "", text), re.findall(ISOSTATIC, text)
+
+
+def wrong_sentences(rows, pooled, size, sentences):
+    """Sentences that place C above or below 12 − 4/N although the recomputed C is not there."""
+    wrong = []
+    for sentence, names, place in sentences:
+        off = [constraints_by_trough(rows, pooled, s, size) - (12 - 4 / size) for s in SOLIDS
+               if s.replace("hedron", "hedra") in names]
+        if not off or place == "is above" and min(off) < 0 or place == "is below" and max(off) > 0:
+            wrong.append(sentence)
+    return wrong
+
+
+def compared(readme, rows, pooled):
+    """Lines of the comparison, and the number of differences."""
+    text, sentences = abstract_of(readme)
+    written = [float(x.replace("−", "-")) for x in re.findall(r"(?<![\w.])[−+]?\d+(?:\.\d+)?", text)]
+    size = 400 if all((s, 400) in pooled for s in SOLIDS) else 100
+    make = rigidity_numbers if "rigid" in pathlib.Path(readme).read_text(encoding="utf-8")[:60] else paper_numbers
+    numbers = make(rows, pooled, size)
+    lines = [f"this sentence DIFFERS from the data: {one}" for one in wrong_sentences(rows, pooled, size, sentences)]
+    wrong = len(lines)
+    if len(written) != len(numbers):
+        return [f"the abstract has {len(written)} numbers, but this script recomputes {len(numbers)}: {written}"], 1
+    for page, (name, value, allowed) in zip(written, numbers):
+        differs = value is not None and abs(page - value) > allowed + 1e-9
+        wrong += differs
+        lines.append(f"{name}: {page:g}, recomputed {'not' if value is None else f'{value:.5g}'} (± {allowed:g})"
+                     f"{'  DIFFERS' if differs else ''}")
+    return lines, wrong
+
+
+def main():
+    readme, *rest = sys.argv[1:]
+    rows, pooled = from_results(rest[1], rest[2:]) if rest[0] == "--results" else from_files(rest)
+    lines, wrong = compared(readme, rows, pooled)
+    print("\n".join(lines))
+    sys.exit(1 if wrong else 0)
+
+
+if __name__ == "__main__":
+    main()
