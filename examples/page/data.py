@@ -46,6 +46,7 @@ def derived(states, particles):
     made |= {f"root_{name}": each(states, [name], lambda x: math.sqrt(x) if x > 0 else None) for name in ("G", "K")}
     made["omega_over_root_G"] = each({**states, **made}, ["omega_l", "root_G"], quotient)
     made["omega_over_root_K"] = each({**states, **made}, ["omega_l", "root_K"], quotient)
+    made["participating"] = each(states, ["p_h"], lambda share: share * particles)
     made["wave"] = each(states, ["omega_l", "G", "phi"], lambda w, g, phi: w / longest_wave(g, phi, particles)
                         if g > 0 else None)
     made["backbone_m"] = each(states, ["backbone_missing", "backbone_removed"],

@@ -22,6 +22,7 @@ COLUMNS = {
     **{f"{name}_trough": f"contacts/trough/{name}" for name in ("Z_ff", "Z_ef", "C")},
     "Q6": "order/Q6", "S": "clusters/S", "percolates": "clusters/percolates", "spans": "clusters/spans",
     "l_max": "clusters/l_max", "body_l_max": "clusters/body_l_max", "D_max": "clusters/D",
+    "p_h": "modes/highest/participation",
     "zero": "modes/zero", "negative": "modes/negative", "omega_l": "modes/omega_l", "omega_h": "modes/omega_h",
     "amplitude": "modes/face_face_amplitude", "members": "modes/face_face_particles", "K": "moduli/K", "G": "moduli/G",
     "self_stress": "rigidity/classes/self_stress", "floppy": "rigidity/classes/floppy",
@@ -40,6 +41,7 @@ COLUMNS = {
 FITS = {"cut_ff": "contacts/face_face_fit", "cut_ef": "contacts/edge_face_fit"}
 # Parameters of the protocol that a study may vary.
 VARIED = ("target_before_relaxation", "consolidation_step", "consolidation_evaluations")
+HISTOGRAMS_AT = (0.0025, 0.001)  # Δφ of histograms beside those of the tables
 SPECTRUM_AT = 0.01  # Δφ of the spectra, the same for all solids
 BALANCED = 1e-3  # largest residual of a backbone whose ranks are used: the removed particles carry no force
 NEAR = 1.25  # factor between two values of Δφ that count as the same
@@ -140,6 +142,20 @@ def trough_of(pooled, row, distance, records):
     return made
 
 
+def troughs_of(row, records):
+    """Entries of a row: nearest jamming, at the distances of its series, and histograms alone at nearer distances."""
+    made = [trough_of(place["pooled_trough"], row, distance, records)
+            for distance, place in ((None, row), *((p["delta_phi"], p) for p in row.get("series", ())))
+            if place.get("pooled_trough")]
+    if made:
+        nearest = row["pooled_trough"]["face_face"]
+        pooled = {"replicates": 0, "face_face": {**nearest, "verdict": "not_called"}, "edge_face": {"verdict": "not_called"},
+                  **{name: {"n": 0} for name in ("Z_ff", "Z_ef", "C", "C_low", "C_high")}}
+        made += [trough_of(pooled, row, distance, records) for distance in HISTOGRAMS_AT
+                 if distance not in {entry["delta_phi"] for entry in made}]
+    return [entry for entry in made if entry["face_face"]["verdict"] != "not_called" or "theta_ef" in entry]
+
+
 def tables_of(isojam, directory):
     command = [isojam, "aggregate", directory, "--format", "json", "--quiet"]
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
@@ -166,9 +182,7 @@ def study_of(isojam, directory):
         spectra = [spectrum for spectrum in map(spectrum_of, kept) if spectrum]
         if spectra:
             made["spectra"][f"{row['solid']} {row['particles']}"] = spectra[0]
-        for distance, place in ((None, row), *((p["delta_phi"], p) for p in row.get("series", ()))):
-            if place.get("pooled_trough"):
-                made["troughs"].append(trough_of(place["pooled_trough"], row, distance, kept))
+        made["troughs"] += troughs_of(row, kept)
     return {**made, "replicates": [replicate_of(record, varied) for record in records]}
 
 

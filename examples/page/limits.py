@@ -61,9 +61,9 @@ def limit_of_choices(paths, windows, central=(0, None)):
     """Limits for all windows and forms, and the limit of the central choice with a systematic error.
 
     The limits are a dict {(index of the window, form): estimate}. The systematic error is half the range over all
-    choices that have a limit. If the central choice has none, the form x = 1 of the same window replaces it."""
+    choices that have a limit. If the central choice has no limit, there is none."""
     every = {(i, form): limit(paths, window, form) for i, window in enumerate(windows) for form in FORMS}
-    chosen = every[central] or every[central[0], 1.0]
+    chosen = every[central]
     if not chosen:
         return every, None
     means = [estimate["mean"] for estimate in every.values() if estimate]

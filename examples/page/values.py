@@ -56,7 +56,7 @@ def listed(solids):
 
 
 def against_isostatic(data, how, particles):
-    """Sentences that compare C with 12 − 4/N: above, below or in agreement within the sum of its errors."""
+    """Sentences that compare C with 12 − 4/N: above or below by more than the sum of its errors, or in agreement."""
     places = {"above": [], "below": [], "near": []}
     for solid in SOLIDS:
         found = data.constraints(solid, int(particles), how)
@@ -64,8 +64,7 @@ def against_isostatic(data, how, particles):
             off = found["mean"] - (12 - 4 / int(particles))
             error = (found["half_width"] or 0) + found.get("systematic", 0)
             places["near" if abs(off) <= error else "above" if off > 0 else "below"].append(solid)
-    text = {"above": "C of {} is above 12 − 4/N by more than its errors.",
-            "below": "C of {} is below 12 − 4/N by more than its errors.",
+    text = {"above": "C of {} is above 12 − 4/N.", "below": "C of {} is below 12 − 4/N.",
             "near": "C of {} agrees with 12 − 4/N within its errors."}
     return " ".join(text[place].format(listed(solids)) for place, solids in places.items() if solids) or "–"
 

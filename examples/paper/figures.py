@@ -74,14 +74,14 @@ def constraints_panel(axes, data, solid, particles):
 def constraints(data, out):
     """C against Δφ by three classifications."""
     particles = drawn_size(data)
-    figure, panels = pyplot.subplots(2, 2, figsize=(WIDTH, 4.6), sharex=True, sharey=True, layout="constrained")
+    figure, panels = pyplot.subplots(2, 2, figsize=(WIDTH, 4.6), sharex=True, sharey="row", layout="constrained")
     paper = next(f for f in figures_of("Table III, column 1") if f["column"] == "C")
     for axes, solid, name in zip(panels.flat, SOLIDS, "abcd"):
         constraints_panel(axes, data, solid, particles)
         axes.axhline(12 - 4 / particles, color="black", linewidth=0.8, linestyle=":")
         if solid == paper["solid"]:
             axes.plot([paper["delta_phi"]], [paper["value"]], "*k", markerfacecolor="white", markersize=9, zorder=5)
-        axes.set(xscale="log", xlim=(2e-4, 0.14), ylim=(10.4, 15.2))
+        axes.set(xscale="log", xlim=(2e-4, 0.14), ylim=(11.4, 15.2) if name in "ab" else (9.4, 13.2))
         letter(axes, name, f"{solid}, N = {particles}")
     panels[0, 0].legend(loc="upper left")
     figure.supxlabel("distance to jamming Δφ", fontsize=8.5)

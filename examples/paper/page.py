@@ -10,6 +10,7 @@ import pages  # noqa: E402
 import values  # noqa: E402
 from comparison import STABLE_FROM, drawn_size, figures_of, offset_test, within  # noqa: E402
 from data import SOLIDS  # noqa: E402
+from estimates import NORMAL, student  # noqa: E402
 from tables import SIZES, TABLES, contacts_at_jamming, region_two_ratios, summary  # noqa: E402, F401
 from text import interval, number, significant  # noqa: E402
 
@@ -36,6 +37,13 @@ def offsets(data, which):
 def largest_offset(data):
     return number(max(abs(f["value"] - data.phi_j(f["solid"], f["particles"])["mean"])
                       for f in figures_of("Table I")), 3)
+
+
+def needed_packings(data, figure):
+    """Number of packings like ours for which the interval of a mean is that of the paper."""
+    ours = data.phi_j(figure["solid"], figure["particles"])
+    deviation = ours["half_width"] * ours["n"] ** 0.5 / student(ours["n"] - 1)
+    return (NORMAL * deviation / figure["error"]) ** 2
 
 
 def entry(data, solid):
@@ -86,6 +94,10 @@ CLAIMS = {
         for f in figures_of("Table IV") if "l_max" in f["column"]),
     "The density of θ_ff between 1° and the smallest critical angle is not uniform": lambda data: all(
         abs(ratio["mean"] - 1) > ratio["half_width"] for _, _, ratio in region_two_ratios(data)),
+    "In most rows, a mean over packings like ours would have such an interval only for hundreds of packings.":
+        lambda data: sum(needed_packings(data, f) > 100 for f in figures_of("Table I")) > 4,
+    "Shifts by the protocol are of the same order as the offsets": lambda data: 0.3 < max(
+        -data.protocol_range(s)[0] for s in SOLIDS) / float(largest_offset(data)) < 3,
     "Only some states are confirmed minima.": lambda data: all(
         0 <= sum(data.minima(s, 400)[:2]) < data.minima(s, 400)[2] for s in SOLIDS),
 }

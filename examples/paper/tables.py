@@ -145,10 +145,10 @@ def high_modes(data):
     rows = []
     for solid in SOLIDS:
         for n in SIZES:
-            columns = [data.nearest(solid, n, name) for name in ("members", "amplitude", "omega_h")]
+            columns = [data.nearest(solid, n, name) for name in ("members", "amplitude", "participating", "S")]
             rows.append([f"{solid} {n}", *map(counted, columns)])
     return table(["solid, N", "share of particles with a face-face contact", "their share of the squared amplitude",
-                  "⟨ω_h⟩"], rows)
+                  "particles that take part in a mode", "mean cluster size S"], rows)
 
 
 def minima(data):
@@ -235,7 +235,8 @@ TABLES = (
      cluster is measured between centres or between vertices. The paper does not define it. "Largest of all states" is the
      largest extent over all packings and all Δφ.""", table_iv),
     ("High-frequency modes", """Squared amplitude of the fifty highest modes on particles that have a face-face contact,
-     in the states nearest jamming.""", high_modes),
+     in the states nearest jamming. The number of particles that take part is N times the mean participation ratio. If it
+     is below S, a mode can be on one cluster of face-face contacts.""", high_modes),
     ("Minima", """A state is a minimum if it has three zero modes and no negative mode. If softest modes cannot be
      distinguished from zero in double precision, or if there are near-rattlers, the backbone is examined instead.""",
      minima),

@@ -19,16 +19,16 @@ def drawn_size(data):
 
 @functools.cache
 def limit_at_jamming(data, solid, particles, column):
-    """Limit of a column as Δφ → 0, with the errors of the fit and of its form. The same forms and windows are used for
-    C, m and S/N."""
-    return limit_of_choices([list(zip(x, y)) for x, y in data.paths(solid, particles, column)], WINDOWS)[1]
+    """Limits of a column as Δφ → 0 by window and form, and the central one with the errors of the fit and of its form.
+    The same forms and windows are used for C, m and S/N."""
+    return limit_of_choices([list(zip(x, y)) for x, y in data.paths(solid, particles, column)], WINDOWS)
 
 
 @functools.cache
 def infinite(data, solid, column):
     """Limit as Δφ → 0 and N → ∞: intercept of the limits against 1/N, weighted by their errors."""
     points = [(1 / n, found["mean"], found["half_width"] + found["systematic"]) for n in data.sizes(solid)
-              if (found := limit_at_jamming(data, solid, n, column)) and found["half_width"]]
+              if (found := limit_at_jamming(data, solid, n, column)[1]) and found["half_width"]]
     if len(points) < 3 or any(width <= 0 for _, _, width in points):
         return None
     weights = [width ** -2 for _, _, width in points]

@@ -13,13 +13,14 @@ from drawing import COLOURS, GRID, MARKERS, SETTINGS, WIDTH, curve, letter, mean
 from counting import EDGES, drawn_size  # noqa: E402
 from troughs import density  # noqa: E402
 
-DRAWN = (0.04, 0.02, 0.01, 0.005, 0.0025, 0.001)  # Δφ of the densities of angles, beside the nearest
+DRAWN = (0.02, 0.01, 0.005, 0.001)  # Δφ of the densities of angles, beside the nearest
 
 
 def shades(colour, count):
     """Colours from light to full."""
     full = matplotlib.colors.to_rgb(colour)
-    return [tuple(1 - (1 - c) * (i + 1) / count for c in full) for i in range(count)]
+    depths = [1 - 0.65 * (count - 1 - i) / max(1, count - 1) for i in range(count)]
+    return [tuple(1 - (1 - c) * depth for c in full) for depth in depths]
 
 
 def angles(data, out):
@@ -27,8 +28,8 @@ def angles(data, out):
     particles = drawn_size(data)
     figure, panels = pyplot.subplots(2, 2, figsize=(WIDTH, 4.6), sharex=True, sharey=True, layout="constrained")
     for axes, solid, name in zip(panels.flat, SOLIDS, "abcd"):
-        places = [d for d in DRAWN if data.trough(solid, particles, d)][-4:] + [None]
-        for distance, colour, width in zip(places, shades(COLOURS[solid], len(places)), (0.8, 0.8, 1, 1, 1.6)[-len(places):]):
+        places = [d for d in DRAWN if data.trough(solid, particles, d)]+ [None]
+        for distance, colour in zip(places, shades(COLOURS[solid], len(places))):
             entry = data.trough(solid, particles, distance)
             if not entry or "theta_ef" not in entry:
                 continue
@@ -36,7 +37,7 @@ def angles(data, out):
             shown = [i for i, value in enumerate(y) if value > 0]
             at = distance or data.nearest_distance(solid, particles)["mean"]
             axes.errorbar([x[i] for i in shown], [y[i] for i in shown], [error[i] for i in shown], color=colour,
-                          linewidth=width, elinewidth=0.6, marker=MARKERS[solid] if distance is None else "",
+                          linewidth=1.6 if distance is None else 1, elinewidth=0.6, marker=MARKERS[solid] if distance is None else "",
                           markersize=3, label=f"Δφ = {at:.2g}")
             if distance is None and entry["edge_face"].get("cutoff"):
                 trough = entry["edge_face"]

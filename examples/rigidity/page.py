@@ -76,6 +76,13 @@ CLAIMS = {
     "⟨ω_l⟩ follows √G more closely than √K": lambda data: max(
         abs(e["mean"]) for e in far_exponents(data, "omega_over_root_G")) < min(
         e["mean"] for e in far_exponents(data, "omega_over_root_K")),
+    "The trough has a finite density at the smallest Δφ.": lambda data: all(
+        data.trough(s, drawn_size(data))["edge_face"]["density"] > 0.02 for s in SOLIDS),
+    "The softest modes have about the frequency of the longest shear waves of the cell": lambda data: all(
+        0.4 < data.at(s, 400, "wave", 0.02)["mean"] < 1.3 for s in SOLIDS),
+    "No quantity follows one power law over the paper's range.": lambda data: all(
+        max(means) - min(means) > 0.1 for s in SOLIDS for c in ("E", "K", "omega_l")
+        if (means := [e["mean"] for a, e in zip(EDGES, data.exponents(s, 400, c, EDGES)) if e and a >= FAR[0]])),
     "Near-rattlers do not explain the missing constraints": lambda data: all(
         data.at(s, 100, "backbone_m", TILTS_AT)["mean"] > 0.5 * data.at(s, 100, "missing", TILTS_AT)["mean"]
         for s in SOLIDS[2:]),

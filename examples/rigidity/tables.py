@@ -4,6 +4,7 @@ import math
 
 from counting import EDGES, WINDOWS, drawn_size, infinite, limit_at_jamming
 from data import SOLIDS
+from limits import FORMS
 from text import counted, interval, number, significant, table
 
 DISTANCES = (0.04, 0.02, 0.01, 0.005, 0.0025, 0.001, None)
@@ -58,7 +59,7 @@ def troughs(data):
         for n in data.sizes(solid):
             for distance in (*sorted(data.trough_distances(solid, n), reverse=True), None):
                 entry = data.trough(solid, n, distance)
-                if not entry:
+                if not entry or entry["edge_face"]["verdict"] == "not_called":
                     continue
                 cells = []
                 for kind in ("face_face", "edge_face"):
@@ -82,16 +83,30 @@ def cutoffs(data):
                           "redundant_half": "S/N, cut-offs × ½", "redundant_double": "S/N, cut-offs × 2"})
 
 
-def limits(data):
+def limits_of(data, names):
+    """Limits of columns as Δφ → 0, {name of the column: its heading}."""
     rows = []
     for solid in SOLIDS:
         for n in data.sizes(solid):
-            found = [limit_at_jamming(data, solid, n, c) for c in ("C", "missing", "redundant")]
-            if any(found):
-                rows.append([f"{solid} {n}", *map(counted, found), number(12 - 4 / n, 2)])
-        at_infinity = [infinite(data, solid, c) for c in ("C", "missing", "redundant")]
-        rows.append([f"{solid}, N → ∞", *map(interval, at_infinity), "12"])
-    return table(["solid, N", "C", "m", "S/N", "12 − 4/N"], rows)
+            cells = []
+            for column in names:
+                every, chosen = limit_at_jamming(data, solid, n, column)
+                cells += [" / ".join(interval(every[0, form]) for form in FORMS), interval(chosen)]
+            if any(cell.strip("– /") for cell in cells):
+                rows.append([f"{solid} {n}", *cells, number(12 - 4 / n, 2)])
+        at_infinity = [interval(infinite(data, solid, column)) for column in names]
+        if rows and rows[-1][0].startswith(solid):
+            rows.append([f"{solid}, N → ∞", *(cell for limit in at_infinity for cell in ("", limit)), "12"])
+    heads = [head for name in names.values() for head in (f"{name}: x = ½ / 1 / free", name)]
+    return table(["solid, N", *heads, "12 − 4/N"], rows) if rows else "These data lack the values.\n"
+
+
+def limits(data):
+    return limits_of(data, {"C": "C", "missing": "m", "redundant": "S/N"})
+
+
+def limits_without_fit(data):
+    return limits_of(data, {"C_trough": "C by trough", "missing_trough": "m by trough", "C_gap": "C by gap"})
 
 
 def near_rattlers(data):
@@ -150,10 +165,13 @@ TABLES = (
     ("Missing and redundant constraints", """m is the number of missing constraints per particle, (6N − 3 − rank)/N. S is
      the number of states of self-stress. Classes are by fit, unless the quantity names the trough.""", counts),
     ("Effect of the fitted cut-offs", "Both fitted cut-offs are halved or doubled.", cutoffs),
-    ("Limits at jamming", f"""Each limit is a in the fit a + b Δφ^x to all packings (classes by fit). The first error is
-     the 95 % interval by bootstrap. The second is half the range over x = ½, 1 and free, and over the windows Δφ <
-     {', '.join(str(high) for _, high in WINDOWS)}. If a free exponent is at an end of its grid (0.2 … 2), it is not used.
-     The limit N → ∞ is linear in 1/N. The same forms and windows are used for C, m and S/N.""", limits),
+    ("Limits at jamming", f"""Each limit is a in the fit a + b Δφ^x to all packings (classes by fit), in the window Δφ <
+     {WINDOWS[0][1]}. The three values in a cell are for x = ½, 1 and free. The next column has the limit for free x. Its
+     first error is the 95 % interval by bootstrap. Its second error is half the range over the three forms and the
+     windows Δφ < {', '.join(str(high) for _, high in WINDOWS)}. A dash means that the best x is at an end of its grid
+     (0.2 … 2): the data do not determine it. The limit N → ∞ is linear in 1/N.""", limits),
+    ("Limits at jamming by trough and by gap", """The same for classes by the troughs or the gaps of single states. States
+     without a trough or a gap are left out.""", limits_without_fit),
     ("Without near-rattlers", """Near-rattlers are removed until none is left. n is the number of particles that remain.
      Ranks of a backbone are used only if the removed particles carried no force. Nearest jamming, softest modes that
      cannot be distinguished from zero make particles look like near-rattlers.""", near_rattlers),

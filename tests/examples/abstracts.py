@@ -192,7 +192,7 @@ def paper_numbers(rows, pooled, size):
             *((f"C by trough, {s}", constraints_by_trough(rows, pooled, s, size), 0.12) for s in SOLIDS),
             ("C within the trough", max(
                 constraints_by_trough(rows, pooled, s, size, 0.2) - constraints_by_trough(rows, pooled, s, size, -0.2)
-                for s in SOLIDS) / 2, 0.06), ("year", 2011, 0),
+                for s in SOLIDS) / 2, 0.06), ("N", size, 0), ("year", 2011, 0),
             ("largest offset of φ_J", max(abs(PAPER[k] - numpy.mean(v)) for k, v in phi.items()), 0.00051),
             ("spread, least", min(widths), 0.00051), ("spread, greatest", max(widths), 0.00051),
             ("shift, least", low, 0.00051), ("shift, greatest", high, 0.00051)]
