@@ -4,6 +4,7 @@ Sentences of README.md that depend on the data are checked: each claim is a sent
 function is false, the sentence must be rewritten."""
 
 import argparse
+import os
 import re
 import shutil
 import sys
@@ -40,6 +41,18 @@ def tables_page(study, data):
     for title, introduction, make in study.TABLES:
         parts.append(f"## {title}\n\n{' '.join(introduction.split())}\n\n{make(data)}")
     return "\n\n".join(part.rstrip("\n") for part in parts) + "\n"
+
+
+def relocated(page, folder, out):
+    """The page with links that lead to the same files from another folder. Links to files that `out` has do not
+    change."""
+    def link(match):
+        target, _, anchor = match[1].partition("#")
+        if not target or "://" in target or (out / target).exists() or not (folder / target).exists():
+            return match[0]
+        return f"]({os.path.relpath(folder / target, out)}{'#' + anchor if anchor else ''})"
+
+    return re.sub(r"\]\(([^)\s]+)\)", link, page)
 
 
 def folded(page, limit=120):
@@ -91,11 +104,12 @@ def main(study, folder):
                    for path, text in made.items() if not path.exists() or path.read_text(encoding="utf-8") != text]
         sys.exit("\n".join(f"{source}: {error}" for error in errors) if errors else 0)
     arguments.out.mkdir(parents=True, exist_ok=True)
-    for path, text in made.items():
-        path.write_text(text, encoding="utf-8")
-    if arguments.out.resolve() != folder.resolve() and not arguments.summary:
+    elsewhere = arguments.out.resolve() != folder.resolve() and not arguments.summary
+    if elsewhere:
         for image in re.findall(r"\]\((\w+\.(?:svg|png|pdf))\)", page):
             if not (arguments.out / image).exists():
                 shutil.copy(folder / image, arguments.out)
+    for path, text in made.items():
+        path.write_text(relocated(text, folder, arguments.out) if elsewhere else text, encoding="utf-8")
     for error in errors:
         print(f"{source}: {error}", file=sys.stderr)

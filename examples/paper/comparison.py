@@ -30,8 +30,8 @@ def uncertainty(figure):
 
 
 def drawn_size(data):
-    """The larger of the paper's sizes for which C by troughs is known."""
-    return 400 if any(data.constraints(solid, 400, "trough") for solid in SOLIDS) else 100
+    """The larger of the paper's sizes for which C by troughs is known for all solids."""
+    return 400 if all(data.constraints(solid, 400, "trough") for solid in SOLIDS) else 100
 
 
 def offset(data, figure):

@@ -98,6 +98,12 @@ CLAIMS = {
         lambda data: sum(needed_packings(data, f) > 100 for f in figures_of("Table I")) > 4,
     "Shifts by the protocol are of the same order as the offsets": lambda data: 0.3 < max(
         -data.protocol_range(s)[0] for s in SOLIDS) / float(largest_offset(data)) < 3,
+    "The committed data are from version 0.1.0": lambda data: not any("troughs" in study for study in data.main()),
+    "Decompression follows each equilibrium with a residual of at most 10⁻⁶ to Δφ = 0.0003.": lambda data: max(
+        x for s in SOLIDS for n in SIZES for r in data.kept(s, n) for x in r["states"]["residual"] if x) < 1.01e-6
+        and all(data.nearest_distance(s, n)["mean"] < 0.0004 for s in SOLIDS[1:] for n in SIZES),
+    "Tetrahedra end at 0.001 (N = 100) or 0.005 (N = 400).": lambda data: all(
+        0.7 < data.nearest_distance(SOLIDS[0], n)["mean"] / end < 1.1 for n, end in ((100, 0.001), (400, 0.005))),
     "Only some states are confirmed minima.": lambda data: all(
         0 <= sum(data.minima(s, 400)[:2]) < data.minima(s, 400)[2] for s in SOLIDS),
 }

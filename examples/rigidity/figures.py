@@ -9,7 +9,7 @@ import matplotlib  # noqa: E402
 from matplotlib import pyplot  # noqa: E402
 
 from data import SOLIDS, Data  # noqa: E402
-from drawing import COLOURS, GRID, MARKERS, SETTINGS, WIDTH, curve, letter, mean_path, save, solid_legend  # noqa: E402
+from drawing import COLOURS, MARKERS, SETTINGS, WIDTH, curve, letter, mean_path, save, solid_legend  # noqa: E402
 from counting import EDGES, drawn_size  # noqa: E402
 from troughs import density  # noqa: E402
 

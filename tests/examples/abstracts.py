@@ -228,8 +228,9 @@ def compared(readme, rows, pooled):
     """Lines of the comparison, and the number of differences."""
     text, sentences = abstract_of(readme)
     written = [float(x.replace("−", "-")) for x in re.findall(r"(?<![\w.])[−+]?\d+(?:\.\d+)?", text)]
-    size = 400 if all((s, 400) in pooled for s in SOLIDS) else 100
-    make = rigidity_numbers if "rigid" in pathlib.Path(readme).read_text(encoding="utf-8")[:60] else paper_numbers
+    page = pathlib.Path(readme).read_text(encoding="utf-8")
+    size = int(re.search(r"C by trough, N = (\d+)", page)[1])
+    make = rigidity_numbers if "rigid" in page[:60] else paper_numbers
     numbers = make(rows, pooled, size)
     lines = [f"this sentence DIFFERS from the data: {one}" for one in wrong_sentences(rows, pooled, size, sentences)]
     wrong = len(lines)

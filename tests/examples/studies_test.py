@@ -140,6 +140,8 @@ class Later(unittest.TestCase):
                 page = without_marks((here / study / "README.md").read_text(encoding="utf-8"))
                 self.assertIn("12.010 ± 0.020 ± 0.050", page)
                 self.assertIn("C by trough, N = 400", page)
+                for target in re.findall(r"\]\(([^)#\s]+)", page):
+                    self.assertTrue("://" in target or (here / study / target).exists(), target)
                 result = python(EXAMPLES / study / "figures.py", here / study, *files)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(len(list((here / study).glob("*.svg"))), 3)
@@ -234,4 +236,4 @@ class Anew(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
