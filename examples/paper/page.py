@@ -94,6 +94,9 @@ CLAIMS = {
         for f in figures_of("Table IV") if "l_max" in f["column"]),
     "The density of θ_ff between 1° and the smallest critical angle is not uniform": lambda data: all(
         abs(ratio["mean"] - 1) > ratio["half_width"] for _, _, ratio in region_two_ratios(data)),
+    "All eight values of the paper are within the prediction interval of single packings.": lambda data: not any(
+        "outside" in within(data, f, data.phi_j(f["solid"], f["particles"])) for f in figures_of("Table I")),
+    "This is weak evidence that the protocols differ.": lambda data: 0.005 < offset_test(data)[2] < 0.1,
     "In most rows, a mean over packings like ours would have such an interval only for hundreds of packings.":
         lambda data: sum(needed_packings(data, f) > 100 for f in figures_of("Table I")) > 4,
     "Shifts by the protocol are of the same order as the offsets": lambda data: 0.3 < max(
