@@ -161,6 +161,12 @@ class Data:
             found = {**found, "systematic": (double["mean"] - half["mean"]) / 2}
         return found
 
+    def cluster(self, solid):
+        """(N, face-face cluster with the largest extent) for the largest N that has one; None without."""
+        found = [(int(name.split()[1]), one) for study in self.main() for name, one in study.get("clusters", {}).items()
+                 if name.split()[0] == solid]
+        return max(found, key=lambda pair: pair[0], default=None)
+
     def protocol_shifts(self, solid):
         """Paired differences of φ_J: other compression protocols minus the one of the main studies."""
         def place(r):

@@ -2,14 +2,17 @@
 
 Writes FILE from the results directories RESULTS/STUDY. It has, for each replicate, flags, cost, φ_J and the
 columns that the pages need of every state. It also has the troughs in the angles of all replicates together, which
-`isojam aggregate` finds, and the histograms of these angles. Numbers are rounded as in records.py. Incomplete studies
+`isojam aggregate` finds, and the histograms of these angles. For the figures it has a spectrum and the largest cluster of
+face-face contacts of each solid. Numbers are rounded as in records.py. Incomplete studies
 count with the replicates that they have.
 """
 
+import csv
 import json
 import math
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 from records import found, records_of, write
@@ -168,12 +171,67 @@ def spectrum_of(record):
     return {"delta_phi": state["delta_phi"], "lowest": ends[0], "highest": ends[1]} if all(ends) else None
 
 
+def largest_cluster(positions, side, pairs):
+    """Indices and unwrapped positions of the cluster with the largest extent along an axis. `pairs` are (a, b, image of
+    b)."""
+    neighbours = {}
+    for a, b, image in pairs:
+        neighbours.setdefault(a, []).append((b, image))
+        neighbours.setdefault(b, []).append((a, [-i for i in image]))
+    found, clusters = set(), []
+    for start in neighbours:
+        if start in found:
+            continue
+        cluster, queue = {start: positions[start]}, [start]
+        while queue:
+            a = queue.pop()
+            for b, image in neighbours[a]:
+                if b not in cluster:
+                    # The centre of b, moved by whole sides to the image that touches a.
+                    shift = [round((y - x) / side) for x, y in zip(cluster[a], positions[a])]
+                    cluster[b] = [y + side * (i - s) for y, i, s in zip(positions[b], image, shift)]
+                    queue.append(b)
+        found |= set(cluster)
+        clusters.append(cluster)
+    return max(clusters, key=lambda c: max(max(axis) - min(axis) for axis in zip(*c.values())), default={})
+
+
+def obj_of(text):
+    """Vertices and faces of a solid in an OBJ file."""
+    rows = [line.split() for line in text.splitlines()]
+    return [[float(x) for x in row[1:]] for row in rows if row and row[0] == "v"], \
+        [[int(x) - 1 for x in row[1:]] for row in rows if row and row[0] == "f"]
+
+
+def cluster_of(isojam, directory, records):
+    """The face-face cluster with the largest extent among the states nearest jamming: the vertices and faces of the
+    solid, and a row (x, y, z, quaternion w, x, y, z) for each particle; None without clusters."""
+    extents = [(found(r, "nearest/clusters/l_max") or 0, name) for name, r in records]
+    extent, name = max(extents, default=(0, None))
+    if not extent:
+        return None
+    packing = json.loads((directory / "packings" / f"{name}.json").read_text(encoding="utf-8"))
+    run = subprocess.run([isojam, "export", directory, name, "--format", "contacts"], check=True, capture_output=True,
+                         text=True)
+    pairs = [(int(row["a"]), int(row["b"]), [int(row[f"image_{axis}"]) for axis in "xyz"])
+             for row in csv.DictReader(run.stdout.splitlines()) if row["class"] == "face_face"]
+    with tempfile.TemporaryDirectory() as here:
+        subprocess.run([isojam, "export", directory, name, "--format", "xyz", "-o", Path(here) / "p.xyz"], check=True,
+                       capture_output=True)
+        vertices, faces = obj_of(next(Path(here).glob("*.obj")).read_text(encoding="utf-8"))
+    cluster = largest_cluster(packing["positions"], packing["side"], pairs)
+    return {"replicate": name, "delta_phi": dict(records)[name]["nearest"]["delta_phi"], "side": packing["side"],
+            "vertices": vertices, "faces": faces,
+            "particles": [[*where, *packing["orientations"][i]] for i, where in cluster.items()]}
+
+
 def study_of(isojam, directory):
     tables = tables_of(isojam, directory)
-    records = [record for _, record in records_of(directory)]
+    named = list(records_of(directory))
+    records = [record for _, record in named]
     varied = [key for key in VARIED if key in tables["rows"][0]["parameters"]]
     made = {"git": sorted({r["provenance"]["git"] for r in records}), "exclude": tables["exclude"],
-            "critical_angles": {}, "spectra": {}, "troughs": []}
+            "critical_angles": {}, "spectra": {}, "clusters": {}, "troughs": []}
     for row in [] if varied else tables["rows"]:
         kept = [r for r in records if r["status"] == "done" and not set(tables["exclude"]) & set(r.get("flags") or ())
                 and (r["spec"]["solid"], r["spec"]["particles"]) == (row["solid"], row["particles"])]
@@ -182,6 +240,9 @@ def study_of(isojam, directory):
         spectra = [spectrum for spectrum in map(spectrum_of, kept) if spectrum]
         if spectra:
             made["spectra"][f"{row['solid']} {row['particles']}"] = spectra[0]
+        cluster = cluster_of(isojam, directory, [(name, r) for name, r in named if any(r is one for one in kept)])
+        if cluster:
+            made["clusters"][f"{row['solid']} {row['particles']}"] = cluster
         made["troughs"] += troughs_of(row, kept)
     return {**made, "replicates": [replicate_of(record, varied) for record in records]}
 

@@ -6,7 +6,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "page"))
 
 import matplotlib  # noqa: E402
+import numpy  # noqa: E402
 from matplotlib import pyplot  # noqa: E402
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: E402
 
 from data import SOLIDS, Data  # noqa: E402
 from drawing import COLOURS, GRID, MARKERS, SETTINGS, WIDTH, curve, letter, mean_path, save, solid_legend  # noqa: E402
@@ -121,11 +123,64 @@ def vibrations(data, out):
     save(figure, out / "vibrations")
 
 
+def rotated(vertices, quaternion):
+    """Vertices, rotated by a quaternion (w, x, y, z)."""
+    w, x, y, z = numpy.array(quaternion) / numpy.linalg.norm(quaternion)
+    rotation = numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    return numpy.array(vertices) @ rotation.T
+
+
+def bodies(cluster):
+    """Vertices of each particle of a cluster, shape (particles, vertices, 3). The longest extent is along x, and the
+    shortest along z."""
+    centres = numpy.array([particle[:3] for particle in cluster["particles"]])
+    axes = numpy.linalg.svd(centres - centres.mean(axis=0))[2]
+    axes[2] *= numpy.linalg.det(axes)  # a rotation, not a reflection
+    corners = numpy.array([(rotated(cluster["vertices"], particle[3:]) + particle[:3]) @ axes.T
+                           for particle in cluster["particles"]])
+    low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
+    return corners - (low + high) / 2
+
+
+def draw_cluster(axes, cluster, colour, reach):
+    """Draws the particles of a cluster, seen along its shortest extent, in a panel of the width 2·reach."""
+    light, faces, colours = numpy.array([0.3, 0.5, 0.81]), [], []
+    for corners in bodies(cluster):
+        for face in cluster["faces"]:
+            points = corners[face]
+            normal = numpy.cross(points[1] - points[0], points[2] - points[0])
+            shade = 0.55 + 0.45 * normal @ light / numpy.linalg.norm(normal)
+            faces.append(points)
+            colours.append(1 - (1 - numpy.array(matplotlib.colors.to_rgb(colour))) * 0.9 if shade > 0.95 else
+                           max(0.3, shade) * numpy.array(matplotlib.colors.to_rgb(colour)))
+    axes.add_collection3d(Poly3DCollection(faces, facecolors=colours, edgecolors="0.15", linewidths=0.4))
+    axes.set(xlim=(-reach, reach), ylim=(-reach, reach), zlim=(-reach, reach))
+    axes.set_proj_type("ortho")
+    axes.set_box_aspect((1, 1, 1), zoom=1.7)
+    axes.view_init(elev=90, azim=-90)
+    axes.set_axis_off()
+
+
+def clusters(data, out):
+    """The face-face cluster with the largest extent of each solid."""
+    figure = pyplot.figure(figsize=(WIDTH, 1.95))
+    found = {solid: one for solid in SOLIDS if (one := data.cluster(solid))}
+    reach = max((numpy.abs(bodies(cluster)).max() for _, cluster in found.values()), default=1.0)
+    for place, (solid, name) in enumerate(zip(SOLIDS, "abcd")):
+        if solid in found:
+            axes = figure.add_axes((place / 4, 0, 0.25, 0.9), projection="3d")
+            draw_cluster(axes, found[solid][1], COLOURS[solid], reach)
+        figure.text(place / 4 + 0.01, 0.9, f"({name})  {solid}", fontsize=8.5)
+    save(figure, out / "clusters")
+
+
 def main():
     out, data = Path(sys.argv[1]), Data(*sys.argv[2:])
     out.mkdir(parents=True, exist_ok=True)
     with matplotlib.rc_context(SETTINGS):
-        for draw in (densities, constraints, vibrations):
+        for draw in (densities, constraints, vibrations, clusters):
             draw(data, out)
 
 

@@ -46,6 +46,13 @@ def needed_packings(data, figure):
     return (NORMAL * deviation / figure["error"]) ** 2
 
 
+def cluster(data, which):
+    """Smallest N, and largest Δφ, of the drawn clusters."""
+    found = [data.cluster(solid) for solid in SOLIDS]
+    return str(min(n for n, _ in found)) if which == "size" else significant(
+        max(one["delta_phi"] for _, one in found), 2)
+
+
 def entry(data, solid):
     return f"`{interval(data.constraints(solid, drawn_size(data), 'trough'))}`"
 
@@ -57,6 +64,7 @@ def drawn(data, how, solid):
 
 value_of = values.value_of({
     **values.VALUES, "Z_J": at_jamming, "offsets": offsets, "largest_offset": largest_offset, "entry": entry,
+    "cluster": cluster,
     "size": lambda data: str(drawn_size(data)), "drawn": drawn,
     "isostatic": lambda data: values.against_isostatic(data, "trough", drawn_size(data)),
     "trough_width": lambda data: values.largest_systematic(data, drawn_size(data))})
