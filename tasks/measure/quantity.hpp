@@ -105,6 +105,6 @@ inline constexpr Quantity phi_j_quantity{"phi_j", "/phi_j/phi_j", main_group, "1
 
 /// Values of Δφ, descending, for which tables give the quantities of states. They are interpolated linearly in ln Δφ
 /// between two states of a replicate.
-inline constexpr std::array series_distances{.16, .08, .04, .02, .01, .005};
+inline constexpr std::array series_distances{.16, .08, .04, .02, .01, .005, .0025, .001, .0005};
 
 }  // namespace isojam
