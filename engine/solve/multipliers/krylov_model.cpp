@@ -24,12 +24,12 @@ constexpr double fall = 0.6, growth = 4, margin = 3;
 
 }  // namespace
 
-KrylovModel::KrylovModel(const BlockMatrix& matrix, const IncompleteCholesky& preconditioner,
+KrylovModel::KrylovModel(const BlockMatrix& matrix, const Preconditioner& preconditioner,
                          const Eigen::VectorXd& gradient, double shift)
     : basis_(gradient.size(), std::min<Eigen::Index>(most_vectors, gradient.size())),
       projected_(basis_.cols(), basis_.cols()) {
   const auto most = static_cast<int>(basis_.cols());
-  Eigen::VectorXd x = preconditioner.solve(gradient);
+  Eigen::VectorXd x = preconditioner(gradient);
   double before = 0;
   int count = 0;
   while (count < most) {
@@ -52,8 +52,9 @@ KrylovModel::KrylovModel(const BlockMatrix& matrix, const IncompleteCholesky& pr
       const double now = gain(shift);
       if (now - before < complete * now) break;
       before = now;
+      incomplete_ = count == most_vectors;
     }
-    if (count < most) x = preconditioner.solve(image);
+    if (count < most) x = preconditioner(image);
   }
   if (vectors() != count) project(gradient, count);
 }
@@ -83,15 +84,23 @@ ModelStep KrylovModel::step(double shift, double longest) const {
   return found;
 }
 
+bool KrylovModels::factorise(const BlockMatrix& matrix, MinimiseWork& work) {
+  ++(uses_complete_ ? work.factorisations : work.incomplete_factorisations);
+  return uses_complete_ ? complete_.factorise(matrix, shift_) : incomplete_.factorise(matrix, shift_);
+}
+
 std::optional<KrylovModel> KrylovModels::model(const BlockMatrix& matrix, const Eigen::VectorXd& gradient, double shift,
                                                MinimiseWork& work) {
-  shift_ = std::max({fall * shift_, margin * negative_, shift});
+  // A complete factorisation succeeds with any shift if the matrix is positive definite.
+  shift_ = std::max({uses_complete_ ? 0 : fall * shift_, margin * negative_, shift});
   for (; std::isfinite(shift_); shift_ *= growth) {
-    ++work.incomplete_factorisations;
-    if (!preconditioner_.factorise(matrix, shift_)) continue;
-    KrylovModel model(matrix, preconditioner_, gradient, shift);
+    if (!factorise(matrix, work)) continue;
+    const KrylovModel model(
+        matrix, [&](const Eigen::VectorXd& b) { return uses_complete_ ? complete_.solve(b) : incomplete_.solve(b); },
+        gradient, shift);
     work.krylov_vectors += model.vectors();
     negative_ = std::max(0.0, -model.lowest());
+    uses_complete_ = negative_ == 0 && (uses_complete_ || model.incomplete());
     return model;
   }
   return std::nullopt;

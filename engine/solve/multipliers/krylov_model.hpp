@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 
 #include "engine/packing/block_matrix.hpp"
+#include "engine/solve/factor/block_cholesky.hpp"
 #include "engine/solve/factor/incomplete_cholesky.hpp"
 #include "engine/solve/minimise/summary.hpp"
 
@@ -26,11 +28,16 @@ class KrylovModel {
  public:
   static constexpr int most_vectors = 48;
 
+  /// Computes P⁻¹ b.
+  using Preconditioner = std::function<Eigen::VectorXd(const Eigen::VectorXd& b)>;
+
   /// Builds the space. It is large enough if its last vectors hardly change the decrease at `shift`. It has at most
   /// most_vectors vectors.
-  KrylovModel(const BlockMatrix& matrix, const IncompleteCholesky& preconditioner, const Eigen::VectorXd& gradient,
+  KrylovModel(const BlockMatrix& matrix, const Preconditioner& preconditioner, const Eigen::VectorXd& gradient,
               double shift);
 
+  /// True if the space has most_vectors vectors and the last of them still changed the decrease.
+  bool incomplete() const { return incomplete_; }
   int vectors() const { return static_cast<int>(eigenvalues_.size()); }  ///< dimension of the space
   /// Lowest eigenvalue of Qᵀ M Q, an upper limit of the lowest eigenvalue of M.
   double lowest() const { return vectors() > 0 ? eigenvalues_[0] : 0; }
@@ -47,11 +54,14 @@ class KrylovModel {
   Eigen::VectorXd eigenvalues_;
   Eigen::MatrixXd eigenvectors_;
   Eigen::VectorXd slopes_;  ///< Uᵀ Qᵀ g
+  bool incomplete_ = false;
 };
 
 /// Builds Krylov models for a sequence of similar matrices. It chooses the shift λ_P of the preconditioner
 /// P ≈ M + λ_P·1. If λ_P is too small, the factorisation fails; if it is too large, the space needs more vectors. λ_P
 /// decreases slowly from model to model, but stays above λ and above the magnitude of the last negative eigenvalue.
+/// Soft modes can remain outside the largest space if P is an incomplete factorisation. The factorisations of the next
+/// models are then complete, until a matrix is indefinite.
 class KrylovModels {
  public:
   /// `shift` is the first λ_P.
@@ -67,7 +77,11 @@ class KrylovModels {
                                    MinimiseWork& work);
 
  private:
-  IncompleteCholesky preconditioner_;
+  bool factorise(const BlockMatrix& matrix, MinimiseWork& work);
+
+  IncompleteCholesky incomplete_;
+  BlockCholesky complete_;
+  bool uses_complete_ = false;
   double shift_, negative_ = 0;
 };
 

@@ -5,6 +5,8 @@
 // - In larger systems, the decrease in a small space is at least 95 % of the decrease in the whole space.
 // - The step always leads downhill, and it becomes shorter as λ grows. It is never longer than allowed.
 // - KrylovModels finds a preconditioner for indefinite matrices, and reports their negative eigenvalues.
+// - If soft modes are outside the largest space, the next factorisation is complete and the step is exact. After an
+//   indefinite matrix, factorisations are incomplete again.
 
 #include "engine/solve/multipliers/krylov_model.hpp"
 
@@ -43,6 +45,10 @@ System random_system(int n, double diagonal, std::uint64_t seed) {
   return system;
 }
 
+KrylovModel::Preconditioner inverse_of(const IncompleteCholesky& factor) {
+  return [&](const Eigen::VectorXd& b) { return factor.solve(b); };
+}
+
 using Eigensolver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
 
 Eigen::VectorXd exact_step(const System& system, const Eigensolver& solver, double shift) {
@@ -57,7 +63,7 @@ double decrease(const System& system, const Eigen::VectorXd& step) {
 TEST(KrylovModel, IsExactInASmallSystem) {
   for (const double diagonal : {8.0, 1.0}) {
     const System system = random_system(3, diagonal, 11);
-    const KrylovModel model(system.matrix, system.preconditioner, system.gradient, 1e-30);
+    const KrylovModel model(system.matrix, inverse_of(system.preconditioner), system.gradient, 1e-30);
     const Eigensolver solver(system.dense);
     const double lowest = solver.eigenvalues()[0];
     std::printf("diagonal %.0f: %d vectors, lowest eigenvalue %.3f of %.3f\n", diagonal, model.vectors(),
@@ -77,7 +83,7 @@ TEST(KrylovModel, ASmallSpaceContainsMostOfTheDecrease) {
   for (const double diagonal : {12.0, 6.0, 2.0}) {
     for (const std::uint64_t seed : {1U, 2U}) {
       const System system = random_system(40, diagonal, seed);
-      const KrylovModel model(system.matrix, system.preconditioner, system.gradient, 1);
+      const KrylovModel model(system.matrix, inverse_of(system.preconditioner), system.gradient, 1);
       const Eigensolver solver(system.dense);
       EXPECT_LE(model.vectors(), KrylovModel::most_vectors);
       double before = std::numeric_limits<double>::infinity();
@@ -99,7 +105,7 @@ TEST(KrylovModel, ASmallSpaceContainsMostOfTheDecrease) {
 
 TEST(KrylovModel, NoParticleMovesFartherThanAllowed) {
   const System system = random_system(40, 2.0, 4);
-  const KrylovModel model(system.matrix, system.preconditioner, system.gradient, 1e-3);
+  const KrylovModel model(system.matrix, inverse_of(system.preconditioner), system.gradient, 1e-3);
   for (const double longest : {1.0, 1e-2, 1e-4}) {
     const ModelStep found = model.step(1e-3, longest);
     double moved = 0;
@@ -130,6 +136,39 @@ TEST(KrylovModels, MeetIndefiniteMatrices) {
   broken.matrix.diagonal[3](1, 1) = std::numeric_limits<double>::quiet_NaN();
   MinimiseWork work;
   EXPECT_FALSE(KrylovModels(1.0).model(broken.matrix, broken.gradient, 1, work));
+}
+
+TEST(KrylovModels, FactoriseCompletelyAfterASpaceWithoutTheSoftModes) {
+  System system = random_system(40, 8.0, 6);
+  const double lowest = Eigensolver(system.dense).eigenvalues()[0], soft = 1e-5, shift = 1e-8;
+  const auto lower = [&](double by) {
+    for (Matrix6d& block : system.matrix.diagonal) block.diagonal().array() -= by;
+    system.dense.diagonal().array() -= by;
+  };
+  lower(lowest - soft);
+  const Eigensolver solver(system.dense);
+  const Eigen::VectorXd exact = exact_step(system, solver, shift);
+  const auto error = [&](const KrylovModel& model) {
+    return (model.step(shift, no_limit).step - exact).norm() / exact.norm();
+  };
+  KrylovModels models(1e3);
+  MinimiseWork work;
+  const auto first = models.model(system.matrix, system.gradient, shift, work);
+  ASSERT_TRUE(first && first->incomplete());
+  EXPECT_EQ(work.factorisations, 0);
+  const auto second = models.model(system.matrix, system.gradient, shift, work);
+  ASSERT_TRUE(second);
+  std::printf("errors of the steps %.1e, %.1e; vectors %d, %d\n", error(*first), error(*second), first->vectors(),
+              second->vectors());
+  EXPECT_EQ(work.factorisations, 1);
+  EXPECT_LT(error(*second), 1e-3);
+  EXPECT_LT(second->vectors(), first->vectors());
+  lower(1);
+  ASSERT_TRUE(models.model(system.matrix, system.gradient, shift, work));
+  EXPECT_GT(models.negative(), 0);
+  const long complete = work.factorisations;
+  ASSERT_TRUE(models.model(system.matrix, system.gradient, shift, work));
+  EXPECT_EQ(work.factorisations, complete);
 }
 
 }  // namespace
