@@ -16,7 +16,9 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: E402
 
-CLUSTERS = isojam.palette.series
+# The edges of black particles would be invisible.
+CLUSTERS = [isojam.palette.colours["yellow"] if colour == isojam.palette.colours["black"] else colour
+            for colour in isojam.palette.series]
 
 
 def clusters(count, pairs):
