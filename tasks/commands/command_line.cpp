@@ -55,6 +55,17 @@ std::string see_help(const std::vector<CLI::App*>& given) {
   return fmt::format("; see \"isojam{} --help\"", given.empty() ? "" : " " + given.front()->get_name());
 }
 
+/// The short name of an option that begins with the same letter as the unknown long name `unknown`; empty if there is
+/// none.
+std::string short_option(const CLI::App& app, const std::string& unknown) {
+  if (!unknown.starts_with("--") || unknown.size() < 3) return "";
+  for (const auto* command : app.get_subcommands()) {
+    const auto* option = command->get_option_no_throw("-" + unknown.substr(2, 1));
+    if (option != nullptr) return "-" + unknown.substr(2, 1);
+  }
+  return "";
+}
+
 /// Returns an error text for the first unknown command or option, or for the first argument that is too many. Returns
 /// an empty text if there is none.
 std::string unexpected_argument(const CLI::App& app) {
@@ -75,7 +86,13 @@ std::string unexpected_argument(const CLI::App& app) {
     const auto unknown = argument.substr(0, option ? argument.find('=') : std::string::npos);
     // Every name of one letter is similar to every other one, so none of them is suggested.
     std::erase_if(names, [](const std::string& name) { return name.size() == 2; });
-    const std::vector<std::string_view> known(names.begin(), names.end());
+    std::vector<std::string_view> known;
+    for (const auto& name : names) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
+    }
+    const auto short_name = short_option(app, unknown);
+    if (!short_name.empty() && nearest_name(unknown, known).empty())
+      return fmt::format("unknown option \"{}\"; did you mean \"{}\"?", unknown, short_name);
     return unknown_name(option ? "option" : "command", unknown, known);
   }
   return remaining.empty() ? "" : fmt::format("unexpected argument \"{}\"{}", remaining.front(), see_help(given));
@@ -272,7 +289,7 @@ std::optional<ExitCode> parse_command_line(int argc, char** argv, std::span<cons
     std::ostringstream out, err;
     const bool asked = app.exit(error, out, err) == 0;
     print(out.str());
-    if (!asked) std::fprintf(stderr, "isojam: error: %s", printable(err.str()).c_str());
+    if (!asked) std::fprintf(stderr, "isojam: error: %s\n", printable(error.what()).c_str());
     return asked ? ExitCode::done : ExitCode::usage;
   }
   return std::nullopt;

@@ -22,9 +22,8 @@ std::string point_name(const ReplicateSpec& spec) {
   return name;
 }
 
-/// Text for the time left, which is between `least` and `most` seconds.
+/// Text for the time left, which is between `least` and `most` > 0 seconds.
 std::string left_text(double least, double most) {
-  if (most == 0) return "nothing";
   if (least == most) return about_text(most);
   return least < 0.5 ? fmt::format("up to {}", duration_text(std::max(most, 1.0)))
                      : fmt::format("{} to {}", about_text(least), duration_text(most));
@@ -67,6 +66,10 @@ ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& 
         "  {} without measures that were added later; run \"isojam measure {}\" to add them, otherwise \"isojam run\" "
         "recomputes these replicates\n",
         counted(static_cast<std::size_t>(survey.lacking), "record"), directory);
+  if (most == 0) {
+    print(text + "remaining: nothing\n" + definitions_text(manifest));
+    return ExitCode::done;
+  }
   const int shards = arguments.shard.count;
   const double share = 1.0 / threads / shards;
   const auto with_paths =

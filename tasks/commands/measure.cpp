@@ -98,8 +98,8 @@ ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   say_nearest_only(found, console);
   warn_about_kernels(console);
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
-  console.info(fmt::format("{}: adding measures to {}", manifest.name,
-                           counted(found.measured.size() + found.failed.size(), "record")));
+  if (const auto records = found.measured.size() + found.failed.size(); records > 0)
+    console.info(fmt::format("{}: adding measures to {}", manifest.name, counted(records, "record")));
   const auto tally = add_measures(store, found, threads, available_memory(), watcher.token(), console);
   if (watcher.token().stop_requested()) {
     console.warn("interrupted: measures that were already added are kept; repeat the command to add the others");

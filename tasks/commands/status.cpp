@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tasks/commands/command.hpp"
@@ -75,6 +77,13 @@ std::string time_left(const Totals& totals, std::size_t running, bool has_goal) 
                      running == 1 ? "s" : "");
 }
 
+/// Names of the flags, with the numbers of replicates that have them: " (crystalline 2, not_balanced 1)".
+std::string flags_text(const Survey& survey) {
+  std::vector<std::string> counts;
+  for (const auto& [flag, count] : survey.flags) counts.push_back(fmt::format("{} {}", to_string(flag), count));
+  return counts.empty() ? "" : fmt::format(" ({})", fmt::join(counts, ", "));
+}
+
 /// Prints the progress of a results directory: recorded, running and interrupted replicates, flags, and problems.
 /// Writes no file.
 ExitCode status(const StatusArguments& arguments, Console&) {
@@ -85,10 +94,10 @@ ExitCode status(const StatusArguments& arguments, Console&) {
   const auto running =
       static_cast<std::size_t>(std::count_if(survey.under_way.begin(), survey.under_way.end(), is_running));
   const auto interrupted = survey.under_way.size() - running;
-  auto text =
-      fmt::format("{}: {} of {}{} recorded, {} failed, {} flagged, {} running{}\n", manifest.name, totals.recorded,
-                  manifest.replicates.goal ? "up to " : "", counted(plan.size(), "replicate"), totals.failed,
-                  totals.flagged, running, interrupted > 0 ? fmt::format(", {} interrupted", interrupted) : "");
+  auto text = fmt::format("{}: {} of {}{} recorded, {} failed, {} flagged{}, {} running{}\n", manifest.name,
+                          totals.recorded, manifest.replicates.goal ? "up to " : "", counted(plan.size(), "replicate"),
+                          totals.failed, totals.flagged, flags_text(survey), running,
+                          interrupted > 0 ? fmt::format(", {} interrupted", interrupted) : "");
   if (survey.unplanned > 0)
     text += fmt::format("  {} {} not in the plan of the manifest\n",
                         counted(static_cast<std::size_t>(survey.unplanned), "record"),
@@ -97,9 +106,6 @@ ExitCode status(const StatusArguments& arguments, Console&) {
     text +=
         fmt::format("  {} without the measures that were added later; add them with \"isojam measure {}\"\n",
                     counted(static_cast<std::size_t>(survey.lacking), "record"), shell_argument(arguments.directory));
-  for (const auto& [flag, count] : survey.flags)
-    text += fmt::format("  {} {} the flag {}\n", counted(static_cast<std::size_t>(count), "replicate"),
-                        count == 1 ? "has" : "have", to_string(flag));
   for (const auto& replicate : survey.under_way) {
     text +=
         fmt::format("  {}: {}{} at density {:.4f}, {} steps, {} of CPU time, last step {} ago\n", replicate.name,

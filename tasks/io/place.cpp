@@ -109,7 +109,12 @@ std::string nearest_name(std::string_view word, std::span<const std::string_view
       best = candidate;
     }
   }
-  return std::string(best);
+  constexpr std::size_t least_beginning = 3;
+  if (!best.empty() || word.size() < least_beginning) return std::string(best);
+  const auto begins = [&](std::string_view candidate) { return candidate.starts_with(word); };
+  const auto only = std::find_if(candidates.begin(), candidates.end(), begins);
+  if (only == candidates.end() || std::count_if(only, candidates.end(), begins) > 1) return "";
+  return std::string(*only);
 }
 
 std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> names,
@@ -121,10 +126,11 @@ std::string unknown_name(std::string_view kind, std::string_view name, std::span
 }
 
 JsonPlace JsonPlace::at(const std::string& key) const {
-  expect_object(fmt::format("an object with the key \"{}\"", key));
+  if (!value_.is_object()) not_accepted(fmt::format("an object with the key \"{}\"", key));
+  const auto found = value_.find(key);
   const auto pointer = pointer_ + pointer_step(key);
-  if (!value_.contains(key)) throw InputError({file_, pointer, "the required key is missing", "", ""});
-  return {value_.at(key), file_, pointer, problems_};
+  if (found == value_.end()) throw InputError({file_, pointer, "the required key is missing", "", ""});
+  return {*found, file_, pointer, problems_};
 }
 
 JsonPlace JsonPlace::at(std::size_t index) const {

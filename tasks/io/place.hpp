@@ -32,8 +32,8 @@ std::string quoted_list(std::span<const std::string_view> names);
 /// `"a"` for one name, `one of "a", "b", "c"` for several.
 std::string one_of(std::span<const std::string_view> names);
 
-/// The candidate that is most similar to `word`, according to the edit distance. Empty if no candidate is similar
-/// enough.
+/// The candidate that is most similar to `word`, according to the edit distance. If no candidate is similar enough, the
+/// only candidate that begins with `word`, or an empty text.
 std::string nearest_name(std::string_view word, std::span<const std::string_view> candidates);
 
 /// Error message for an unknown name: `unknown flag "x"; did you mean "y"?`. If no name is similar, the message lists

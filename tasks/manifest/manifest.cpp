@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <set>
+#include <system_error>
 
 #include "tasks/io/file.hpp"
 #include "tasks/io/hash.hpp"
@@ -323,6 +325,13 @@ Manifest parse(std::string_view text, const std::string& file, bool with_start) 
 Manifest parse_manifest(std::string_view text, const std::string& file) { return parse(text, file, false); }
 
 Manifest read_manifest(const std::string& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) {
+    const auto own = (std::filesystem::path(file) / "manifest.json").string();
+    throw FileError(fmt::format("{}: is a directory; give a manifest{}", file,
+                                std::filesystem::exists(own, error) ? ", for example " + own : ""),
+                    FileError::Reason::no_file);
+  }
   return parse(read_text(file == "-" ? "/dev/stdin" : file), file, true);
 }
 

@@ -291,21 +291,6 @@ void put_partial(Json& contacts, const Packing& packing, std::span<const Contact
                "all contacts are between particles of one kind");
 }
 
-/// Histograms of the alignment angles (radians) from 1e-4 to the largest possible angle, which is below 10^0.2.
-Json angle_histogram(std::span<const Alignment> alignments) {
-  constexpr int least = -4 * Histogram::per_decade, bins = 4 * Histogram::per_decade + 1;
-  Histogram face_face(least, bins), edge_face(least, bins);
-  for (const auto& alignment : alignments) {
-    face_face.add(alignment.face_face);
-    edge_face.add(alignment.edge_face);
-  }
-  Json json;
-  json["log10_angle"] = face_face.edges();
-  json["face_face"] = face_face.record();
-  json["edge_face"] = edge_face.record();
-  return json;
-}
-
 /// The alignment angles of a state in ascending order, for plots of their distributions. Also states whether there are
 /// more small angles than for random contacts. Two kinds of random contacts are compared: only vertices in faces, and
 /// vertices in faces together with pairs of edges.
@@ -352,7 +337,6 @@ Measurement measure_contacts(const JamResult& jam, const MeasureOptions&) {
     put_trough(measurement.states.back(), histogram_of(classified), jam.states[k].size());
     Json& contacts = measurement.states.back()["contacts"];
     put_partial(contacts, jam.states[k], classified.contacts);
-    contacts["angle_histogram"] = angle_histogram(classified.alignments);
     if (k != nearest) continue;
     measurement.flags = contact_flags(classified.analysis);
     contacts["angles"] = angle_record(jam.states[k], classified);

@@ -31,23 +31,44 @@ Json histogram_record(const AngleHistogram& histogram) {
   json["face_face_end"] = histogram.face_face_window - zero;
   json["edge_face_end"] = histogram.edge_face_window - zero;
   json["cells"] = Json::array();
-  for (const auto& cell : histogram.cells)
-    json["cells"].push_back({cell.face_face - zero, cell.edge_face - zero, std::lround(cell.contacts)});
+  for (const auto& cell : histogram.cells) {
+    for (const long number : {long{cell.face_face - zero}, long{cell.edge_face - zero}, std::lround(cell.contacts)})
+      json["cells"].push_back(number);
+  }
   return json;
 }
 
-int read_bin(const JsonPlace& place, int most = angle_bins - 1) {
-  return static_cast<int>(place.integer({-zero, static_cast<double>(most - zero)})) + zero;
+/// An integer in a list. Tables read millions of them. A place contains texts for messages, so it is made only for a
+/// value that is not accepted.
+int integer_at(const JsonPlace& list, std::size_t index, const Range& range) {
+  const Json& value = list.value()[index];
+  if (value.is_number_integer() && range.contains(value.get<double>())) return value.get<int>();
+  return static_cast<int>(list.at(index).integer(range));
 }
 
-double read_contacts(const JsonPlace& place) { return static_cast<double>(place.integer({0, 1e9})); }
+constexpr Range bins{-zero, angle_bins - 1 - zero}, ends{-zero, angle_bins - zero}, numbers{0, 1e9};
 
 void read_counts(const JsonPlace& place, std::vector<double>& counts) {
   const auto list = place.at("counts");
   const auto size = list.expect_list("a list of numbers of contacts");
-  const auto first = static_cast<std::size_t>(read_bin(place.at("first"), angle_bins));
+  const auto first = static_cast<std::size_t>(place.at("first").integer(ends) + zero);
   if (first + size > counts.size()) list.refuse("the list has more bins than angles up to π need");
-  for (std::size_t k = 0; k < size; ++k) counts[first + k] = read_contacts(list.at(k));
+  for (std::size_t k = 0; k < size; ++k) counts[first + k] = integer_at(list, k, numbers);
+}
+
+void read_cells(const JsonPlace& list, AngleHistogram& histogram) {
+  constexpr std::size_t parts = 3;
+  const auto size = list.expect_list("a list of bins and numbers");
+  if (size % parts != 0) list.refuse("the list has the wrong length", "a bin of θ_ff, a bin of θ_ef, and a number, …");
+  histogram.cells.reserve(size / parts);
+  for (std::size_t k = 0; k < size; k += parts) {
+    const int face_face = integer_at(list, k, bins) + zero, edge_face = integer_at(list, k + 1, bins) + zero;
+    const double contacts = integer_at(list, k + 2, numbers);
+    double& apart = histogram.edge_face_apart[static_cast<std::size_t>(edge_face)];
+    apart -= contacts;
+    if (apart < 0) list.at(k + 2).refuse("there are more of these contacts than contacts with this θ_ef");
+    histogram.cells.push_back({face_face, edge_face, contacts});
+  }
 }
 
 }  // namespace
@@ -101,18 +122,9 @@ AngleHistogram read_angle_histogram(const JsonPlace& place) {
   AngleHistogram histogram;
   read_counts(place.at("face_face"), histogram.face_face);
   read_counts(place.at("edge_face"), histogram.edge_face_apart);
-  histogram.face_face_window = read_bin(place.at("face_face_end"), angle_bins);
-  histogram.edge_face_window = read_bin(place.at("edge_face_end"), angle_bins);
-  const auto cells = place.at("cells");
-  const auto count = cells.expect_list("a list of bins and numbers");
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto cell = cells.at(k);
-    cell.expect_length(3, "the bin of θ_ff, the bin of θ_ef, and the number of contacts");
-    histogram.cells.push_back({read_bin(cell.at(std::size_t{0})), read_bin(cell.at(1)), read_contacts(cell.at(2))});
-    double& apart = histogram.edge_face_apart[static_cast<std::size_t>(histogram.cells.back().edge_face)];
-    apart -= histogram.cells.back().contacts;
-    if (apart < 0) cell.refuse("there are more of these contacts than contacts with this θ_ef");
-  }
+  histogram.face_face_window = static_cast<int>(place.at("face_face_end").integer(ends)) + zero;
+  histogram.edge_face_window = static_cast<int>(place.at("edge_face_end").integer(ends)) + zero;
+  read_cells(place.at("cells"), histogram);
   return histogram;
 }
 

@@ -8,10 +8,13 @@
 #include <system_error>
 #include <utility>
 
+#include "tasks/measure/trough_parts.hpp"
 #include "tasks/records/record.hpp"
 
 namespace isojam {
 namespace {
+
+constexpr std::string_view angles_key = angle_bins_pointer.substr(angle_bins_pointer.rfind('/') + 1);
 
 /// Part of a value that is kept.
 enum class Keep : std::uint8_t { nothing, short_lists, all };
@@ -22,7 +25,7 @@ std::uint64_t hashed(std::uint64_t hash, char c) { return (hash ^ static_cast<un
 /// Reads the text from the beginning to the end. The functions that read return false if the text is not as expected.
 class Reader {
  public:
-  explicit Reader(std::string_view text) : text_(text) {}
+  Reader(std::string_view text, Angles angles) : text_(text), angles_(angles) {}
 
   std::optional<Abridged> result() {
     Abridged found{Json::object(), ""};
@@ -110,14 +113,15 @@ class Reader {
     return entries('}', [&] {
       std::string_view key;
       if (!string(key)) return false;
+      const bool of_angles = key == angles_key;
       // Json::emplace() would compare the key with all other ones.
-      auto* const child =
-          into ? &into->get_ref<Json::object_t&>().emplace_back(std::string(key), nullptr).second : nullptr;
+      auto* const child = into && (!of_angles || angles_ == Angles::keep)
+                              ? &into->get_ref<Json::object_t&>().emplace_back(std::string(key), nullptr).second
+                              : nullptr;
       skip_space();
       if (!take_if(':')) return false;
       skip_space();
-      // Tables find troughs in these histograms.
-      return value(child, key == "angle_bins" ? Keep::all : keep, depth + 1);
+      return value(child, of_angles ? Keep::all : keep, depth + 1);
     });
   }
 
@@ -175,6 +179,7 @@ class Reader {
   static constexpr std::uint64_t empty = 0xcbf29ce484222325U;  // hash_of("")
 
   std::string_view text_, checksum_;
+  Angles angles_;
   std::size_t at_ = 0;
   std::uint64_t seal_ = empty, digest_ = empty;
   bool digested_ = false, digest_begun_ = false;
@@ -182,6 +187,6 @@ class Reader {
 
 }  // namespace
 
-std::optional<Abridged> abridged(std::string_view text) { return Reader(text).result(); }
+std::optional<Abridged> abridged(std::string_view text, Angles angles) { return Reader(text, angles).result(); }
 
 }  // namespace isojam

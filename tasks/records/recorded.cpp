@@ -97,10 +97,10 @@ RecordedReplicate read_record(const fs::path& directory, const std::string& name
   return parsed_record(expect_present(file, [&] { return read_result(file); }), file, name);
 }
 
-RecordedReplicate read_abridged_record(const fs::path& directory, const std::string& name) {
+static RecordedReplicate read_quickly(const fs::path& directory, const std::string& name, Angles angles) {
   const auto file = file_in(directory, "records", name);
   const auto text = expect_present(file, [&] { return read_result(file); });
-  if (auto shorter = abridged(text)) {
+  if (auto shorter = abridged(text, angles)) {
     const auto is = [&](const char* key, std::string_view value) {
       const auto found = shorter->record.find(key);
       return found != shorter->record.end() && found->is_string() && found->get_ref<const std::string&>() == value;
@@ -109,6 +109,14 @@ RecordedReplicate read_abridged_record(const fs::path& directory, const std::str
       return summarised(std::move(shorter->record), file, name, shorter->result_digest, false);
   }
   return parsed_record(text, file, name);
+}
+
+RecordedReplicate read_abridged_record(const fs::path& directory, const std::string& name) {
+  return read_quickly(directory, name, Angles::keep);
+}
+
+RecordedReplicate read_record_without_angles(const fs::path& directory, const std::string& name) {
+  return read_quickly(directory, name, Angles::drop);
 }
 
 bool is_of(const RecordedReplicate& replicate, const Plan& plan) {
@@ -177,8 +185,10 @@ void expect_directory(const fs::path& directory) {
   std::error_code error;
   const auto status = fs::status(directory, error);
   // If the directory has no read permission, the error is reported later, when the directory is read.
-  if (status.type() == fs::file_type::not_found || (fs::exists(status) && !fs::is_directory(status)))
-    throw FileError(fmt::format("{}: {}; {}", directory.string(), no_directory, how_to_get_results),
+  const bool is_missing = status.type() == fs::file_type::not_found;
+  if (is_missing || (fs::exists(status) && !fs::is_directory(status)))
+    throw FileError(fmt::format("{}: {}; {}", directory.string(), is_missing ? no_directory : "is not a directory",
+                                how_to_get_results),
                     FileError::Reason::missing);
 }
 
@@ -197,6 +207,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
     const auto name = entry.path().filename().string();
     if (name.front() != '.' && entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   }
+  if (error == std::errc::not_a_directory) expect_directory(folder.parent_path());
   if (error && error != std::errc::no_such_file_or_directory)
     throw FileError::of_error(folder, "cannot be listed", error);
   std::sort(names.begin(), names.end());

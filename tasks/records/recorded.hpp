@@ -24,9 +24,11 @@ struct RecordedReplicate {
 /// missing or damaged, if its result digest is wrong, or if it describes another replicate than its name.
 RecordedReplicate read_record(const std::filesystem::path& directory, const std::string& name);
 
-/// The same with less time, for tables and surveys. The key `path` is missing in `record`, and lists inside its states
-/// may be empty, except histograms of angles.
+/// The same with less time, for tables. The key `path` is missing in `record`, and lists inside its states may be
+/// empty, except histograms of angles.
 RecordedReplicate read_abridged_record(const std::filesystem::path& directory, const std::string& name);
+/// The same with still less time, for surveys. The histograms of angles may be missing too.
+RecordedReplicate read_record_without_angles(const std::filesystem::path& directory, const std::string& name);
 
 /// True if the record has the result that this plan requests, apart from measures. This is the case if the identity()
 /// of its manifest and that of the plan differ at most in the measures. It is also the case if only the sweep has

@@ -83,7 +83,6 @@ Aggregation::Kept Aggregation::kept(const RecordSummary& record) {
             has_any(record, exclude_),
             record.residual,
             nullptr,
-            {},
             {}};
   Cells cells;
   const auto keep = [&](const Values& values, std::size_t place) {
@@ -94,19 +93,24 @@ Aggregation::Kept Aggregation::kept(const RecordSummary& record) {
     }
   };
   keep(record.values, 0);
-  const auto keep_angles = [&](const std::optional<AngleHistogram>& angles, std::size_t place) {
-    if (angles) kept.angles.emplace_back(place, PackedAngles(*angles));
-  };
-  keep_angles(record.angles, 0);
   for (std::size_t k = 0; k < series_distances.size(); ++k) {
     const auto at = neighbours(record.states, series_distances[k]);
-    if (!at) continue;
-    keep(interpolated(*at), k + 1);
-    keep_angles(interpolated_angles(*at), k + 1);
+    if (at) keep(interpolated(*at), k + 1);
   }
   kept.values.shrink_to_fit();
   kept.cells = &*layouts_.insert(std::move(cells)).first;
   return kept;
+}
+
+void Aggregation::add_angles(const RecordSummary& record, Point& point) {
+  const auto add = [&](const std::optional<AngleHistogram>& angles, std::size_t place) {
+    if (angles) point.angles[place].add(record.study, record.replicate, *angles);
+  };
+  add(record.angles, 0);
+  for (std::size_t k = 0; k < series_distances.size(); ++k) {
+    const auto at = neighbours(record.states, series_distances[k]);
+    if (at) add(interpolated_angles(*at), k + 1);
+  }
 }
 
 Values Aggregation::own_values(const Kept& kept) {
@@ -131,6 +135,7 @@ void Aggregation::add(const RecordSummary& record) {
   for (const auto flag : record.flags) {
     if (added && std::find(exclude_.begin(), exclude_.end(), flag) != exclude_.end()) ++excluded_[flag];
   }
+  if (added && place->second.counts()) add_angles(record, point);
   if (added) {
     for (const auto measure : record.nearest_only) ++nearest_only_[measure];
   }
@@ -156,14 +161,9 @@ std::optional<GoalOutcome> Aggregation::goal_outcome(const Point& point, const s
 
 std::optional<PooledTrough> Aggregation::trough(const PointKey& key, const Point& point, std::size_t place) {
   const auto& [solid, particles, parameters] = key;
-  std::vector<const PackedAngles*> packings;
-  for (const auto& [name, replicate] : point.replicates) {
-    if (!replicate.counts()) continue;
-    for (const auto& [where, angles] : replicate.angles) {
-      if (where == place) packings.push_back(&angles);
-    }
-  }
-  return pooled_trough(packings, particles, point_text(solid, particles, parameters));
+  const auto angles = point.angles.find(place);
+  if (angles == point.angles.end()) return std::nullopt;
+  return angles->second.trough(particles, point_text(solid, particles, parameters));
 }
 
 void Aggregation::put_estimates(const Point& point, const std::string& text, std::size_t place, Estimates& estimates,

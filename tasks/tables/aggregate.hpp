@@ -91,7 +91,7 @@ struct Table {
 };
 
 /// Collects records one by one for a table. For each record, it stores only the values that the table needs, which take
-/// less than a kilobyte. The table does not depend on the order in which records are added.
+/// about half a kilobyte. The table does not depend on the order in which records are added.
 class Aggregation {
  public:
   /// Replicates with a flag in `exclude` are excluded from means, and the stopping rule ignores their values. `base`
@@ -122,7 +122,6 @@ class Aggregation {
     std::optional<double> residual;
     const Cells* cells = nullptr;  ///< the cells that have a value; most replicates of a study share them
     std::vector<double> values;    ///< a value for each cell
-    std::vector<std::pair<std::size_t, PackedAngles>> angles;  ///< by place
 
     bool counts() const { return !failed && !excluded; }
     std::optional<double> at(Cell cell) const;
@@ -134,10 +133,12 @@ class Aggregation {
     Json settings;
     std::string first;  // the record from which `settings` were taken
     std::map<ReplicateKey, Kept> replicates;
+    std::map<std::size_t, PooledAngles> angles;  // by place, of the replicates that count
   };
 
   Kept kept(const RecordSummary& record);
   static Values own_values(const Kept& kept);  ///< values of the replicate and of its nearest state
+  static void add_angles(const RecordSummary& record, Point& point);
   static std::optional<PooledTrough> trough(const PointKey& key, const Point& point, std::size_t place);
   /// Estimates of all quantities at a place, without and with the excluded replicates. `text` seeds the bootstrap.
   static void put_estimates(const Point& point, const std::string& text, std::size_t place, Estimates& estimates,

@@ -208,8 +208,8 @@ std::vector<Cells> pooled_lines(const std::vector<TableLine>& lines, const std::
   const auto append = [](Cells& line, const Cells& more) { line.insert(line.end(), more.begin(), more.end()); };
   const bool of_series = !lines.empty() && lines.front().delta_phi;
   if (of_series) cells[0].push_back(symbol("delta_phi", "\\Delta\\phi", format));
-  append(cells[0], {"replicates", "low", symbol("log ff", "\\log_{10}\\theta_{ff}", format), "high", "low",
-                    symbol("log ef", "\\log_{10}\\theta_{ef}", format), "high"});
+  append(cells[0], {"replicates", "ff low", symbol("log ff", "\\log_{10}\\theta_{ff}", format), "ff high", "ef low",
+                    symbol("log ef", "\\log_{10}\\theta_{ef}", format), "ef high"});
   for (const auto name : {"Z_ff", "Z_ef", "Z_l", "C", "C_low", "C_high"}) cells[0].push_back(spelt(name, format));
   for (const TableLine& line : lines) {
     if (!line.trough) continue;

@@ -1,5 +1,6 @@
 #include "tasks/tables/pooled_trough.hpp"
 
+#include <cmath>
 #include <cstddef>
 
 #include "tasks/io/hash.hpp"
@@ -9,7 +10,9 @@ namespace isojam {
 PackedAngles::PackedAngles(const AngleHistogram& histogram)
     : face_face_window_(static_cast<std::uint8_t>(histogram.face_face_window)),
       edge_face_window_(static_cast<std::uint8_t>(histogram.edge_face_window)) {
-  const auto add = [&](int face_face, int edge_face, double contacts) {
+  const auto add = [&](int face_face, int edge_face, double number) {
+    constexpr double parts = 1 << 16;
+    const double contacts = std::round(number * parts) / parts;
     if (contacts == 0) return;
     entries_.push_back(
         {static_cast<std::uint8_t>(face_face), static_cast<std::uint8_t>(edge_face), static_cast<float>(contacts)});
@@ -38,24 +41,61 @@ AngleHistogram PackedAngles::unpacked() const {
   return histogram;
 }
 
-std::optional<PooledTrough> pooled_trough(const std::vector<const PackedAngles*>& packings, int particles,
-                                          const std::string& key) {
-  if (packings.empty()) return std::nullopt;
-  PooledTrough pooled{.replicates = static_cast<int>(packings.size()),
-                      .particles = static_cast<double>(particles) * static_cast<double>(packings.size())};
-  AngleHistogram total = packings.front()->unpacked();
-  for (std::size_t k = 1; k < packings.size(); ++k) total.add(packings[k]->unpacked());
-  pooled.cutoffs = trough_cutoffs(total);
+void PooledAngles::Group::add(const AngleHistogram& histogram) {
+  if (replicates++ == 0) {
+    sum = histogram;
+  } else {
+    sum.add(histogram);
+  }
+}
+
+void PooledAngles::add(const std::string& study, int replicate, const AngleHistogram& histogram) {
+  const auto combine = [&](const std::pair<std::string, int>& name, const PackedAngles& angles) {
+    const auto number = hash_of(name.first) + static_cast<std::uint64_t>(name.second);
+    groups_[number % most_groups].add(angles.unpacked());
+  };
+  const std::pair name(study, replicate);
+  if (!groups_.empty()) return combine(name, PackedAngles(histogram));
+  each_.emplace(name, histogram);
+  if (each_.size() <= most_groups) return;
+  groups_.resize(most_groups);
+  for (const auto& [own, angles] : each_) combine(own, angles);
+  each_.clear();
+}
+
+std::vector<PooledAngles::Group> PooledAngles::groups() const {
+  std::vector<Group> list = groups_;
+  for (const auto& [name, angles] : each_) list.push_back({1, angles.unpacked()});
+  std::erase_if(list, [](const Group& group) { return group.replicates == 0; });
+  return list;
+}
+
+std::optional<PooledTrough> PooledAngles::trough(int particles, const std::string& key) const {
+  const auto all = groups();
+  if (all.empty()) return std::nullopt;
+  Group total;
+  std::vector<int> sizes;
+  for (const Group& group : all) {
+    total.add(group.sum);
+    sizes.push_back(group.replicates);
+  }
+  PooledTrough pooled;
+  for (const int size : sizes) pooled.replicates += size;
+  pooled.particles = static_cast<double>(particles) * pooled.replicates;
+  pooled.cutoffs = trough_cutoffs(total.sum);
   std::array<std::vector<double>, PooledTrough::names.size()> values;
-  for (const PackedAngles* packing : packings) {
-    const auto [n, C_low, C_high] = trough_numbers(packing->unpacked(), particles, pooled.cutoffs);
+  for (const Group& group : all) {
+    const auto [n, C_low, C_high] = trough_numbers(group.sum, particles * group.replicates, pooled.cutoffs);
     if (pooled.cutoffs.has_face_face()) values[0].push_back(n.Z_ff);
     if (!pooled.cutoffs.has_all()) continue;
     const std::array others{n.Z_ef, n.Z_l, n.C, C_low, C_high};
     for (std::size_t i = 0; i < others.size(); ++i) values[i + 1].push_back(others[i]);
   }
-  for (std::size_t i = 0; i < values.size(); ++i)
-    pooled.estimates[i] = estimate(values[i], hash_of(key + std::string(PooledTrough::names[i])));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i].empty()) continue;
+    pooled.estimates[i] = groups_.empty() ? estimate(values[i], hash_of(key + std::string(PooledTrough::names[i])))
+                                          : estimate_of_groups(values[i], sizes);
+  }
   return pooled;
 }
 

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/analysis/trough_classes.hpp"
@@ -13,7 +15,8 @@
 
 namespace isojam {
 
-/// The histogram of a state in little memory.
+/// The histogram of a state in little memory. Numbers of contacts are rounded to multiples of 2^−16, so that sums of
+/// them are exact and do not depend on their order.
 class PackedAngles {
  public:
   explicit PackedAngles(const AngleHistogram& histogram);
@@ -44,9 +47,29 @@ struct PooledTrough {
   std::array<Estimate, 6> estimates = {};
 };
 
-/// Finds the troughs of `packings`, which have the same number of particles. nullopt if `packings` is empty. `key` is
-/// the text from which the random numbers of the bootstrap are derived.
-std::optional<PooledTrough> pooled_trough(const std::vector<const PackedAngles*>& packings, int particles,
-                                          const std::string& key);
+/// The angles of the replicates of a row. Up to `most_groups` replicates are stored one by one. More replicates are
+/// combined into this number of groups, so that the memory does not grow with the number of replicates.
+class PooledAngles {
+ public:
+  static constexpr std::size_t most_groups = 32;
+  /// Adds a replicate, which has not been added before. The result does not depend on the order.
+  void add(const std::string& study, int replicate, const AngleHistogram& histogram);
+  /// Finds the troughs of all replicates, which have the same number of particles. nullopt if there are no replicates. `key` is
+  /// the text from which the random numbers of the bootstrap are derived.
+  std::optional<PooledTrough> trough(int particles, const std::string& key) const;
+
+ private:
+  struct Group {
+    int replicates = 0;
+    AngleHistogram sum = {};
+
+    void add(const AngleHistogram& histogram);
+  };
+  /// The groups that are not empty. If there are few replicates, each of them is a group.
+  std::vector<Group> groups() const;
+
+  std::map<std::pair<std::string, int>, PackedAngles> each_;
+  std::vector<Group> groups_;  ///< empty if there are few replicates
+};
 
 }  // namespace isojam

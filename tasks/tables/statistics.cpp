@@ -111,6 +111,22 @@ Estimate estimate(std::vector<double> values, std::uint64_t key) {
   return result;
 }
 
+Estimate estimate_of_groups(const std::vector<double>& means, const std::vector<int>& sizes) {
+  Estimate result;
+  double sum = 0, squares = 0;
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    result.n += sizes[k];
+    sum += sizes[k] * means[k];
+  }
+  result.mean = sum / result.n;
+  if (means.size() < 2) return result;
+  for (std::size_t k = 0; k < means.size(); ++k)
+    squares += sizes[k] * (means[k] - *result.mean) * (means[k] - *result.mean);
+  result.sd = std::sqrt(squares / static_cast<double>(means.size() - 1));
+  use_half_width(result, student_of(means.size()) * *result.sd / std::sqrt(result.n));
+  return result;
+}
+
 Estimate proportion_estimate(std::vector<double> values) {
   auto result = without_interval(values);
   result.method = IntervalMethod::wilson;

@@ -52,6 +52,11 @@ inline constexpr int most_bootstrapped = 1000;
 /// random numbers of the bootstrap depend only on `key` and the number of values.
 Estimate estimate(std::vector<double> values, std::uint64_t key);
 
+/// Estimates the mean of values in groups. `means` are the means of the groups, and `sizes` their numbers of values.
+/// There must be a group. The standard deviation is estimated from the groups, and Student's t has one degree of
+/// freedom less than there are groups. There is no bootstrap interval.
+Estimate estimate_of_groups(const std::vector<double>& means, const std::vector<int>& sizes);
+
 /// Estimates a proportion, with Wilson's interval. Each value is 0 or 1, or is interpolated between them.
 Estimate proportion_estimate(std::vector<double> values);
 

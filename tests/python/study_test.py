@@ -11,6 +11,7 @@
 - Records of the earlier version have the same columns.
 - A directory without records, a path that is not a directory, and unknown names are rejected."""
 
+import copy
 import json
 import pathlib
 import subprocess
@@ -187,6 +188,10 @@ class Columns(support.Case):
         self.assertEqual((len(rows[rows["x"] > 5]), len(rows[[]]), rows[-1]["x"], len(rows[1:])), (0, 0, 3, 2))
         with self.assertRaisesRegex(KeyError, 'did you mean "solid"'):
             rows["solids"]
+        self.assertIs(rows.x, rows["x"])
+        self.assertEqual(copy.copy(rows).columns, rows.columns)
+        with self.assertRaisesRegex(AttributeError, 'unknown column "y"; expected one of solid'):
+            rows.y
 
 
 class Directories(support.Case):

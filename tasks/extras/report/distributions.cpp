@@ -11,6 +11,7 @@
 
 #include "engine/arithmetic/elementary.hpp"
 #include "tasks/measure/shared_parts.hpp"
+#include "tasks/measure/trough_parts.hpp"
 
 namespace isojam {
 namespace {
@@ -85,9 +86,29 @@ Json forces_of(std::span<const Json> states) {
   return json;
 }
 
-Json angles_of(std::span<const Json> states, const std::string& kind) {
-  const auto total =
-      summed(states, "/contacts/angle_histogram/log10_angle", "/contacts/angle_histogram/" + kind + "/counts");
+using Counts = std::vector<double> (*)(const AngleHistogram& histogram);
+
+/// Sum of the angles of the states, in wider bins than those of the records and without angles below 1e-4 rad.
+Summed summed_angles(std::span<const Json> states, Counts counts) {
+  constexpr int wide = angle_bins_per_decade / Histogram::per_decade, from = -4;
+  constexpr int first = (from - angle_bins_from) * angle_bins_per_decade;
+  Summed total;
+  total.sums.assign((angle_bins - first + wide - 1) / wide, 0);
+  for (std::size_t k = 0; k <= total.sums.size(); ++k)
+    total.edges.push_back(from + static_cast<double>(k) / Histogram::per_decade);
+  for (const Json& state : states) {
+    const Json::json_pointer place{std::string(angle_bins_pointer)};
+    if (!state.contains(place)) continue;
+    const auto list = counts(read_angle_histogram({state.at(place), "record"}));
+    for (int k = first; k < angle_bins; ++k)
+      total.sums[static_cast<std::size_t>((k - first) / wide)] += list[static_cast<std::size_t>(k)];
+    ++total.states;
+  }
+  return total;
+}
+
+Json angles_of(std::span<const Json> states, Counts counts) {
+  const auto total = summed_angles(states, counts);
   const double all = std::accumulate(total.sums.begin(), total.sums.end(), 0.0);
   if (!(all > 0)) return nullptr;
   const auto per_decade = [&](double count, double, double) { return count / all * Histogram::per_decade; };
@@ -109,8 +130,8 @@ Json pairs_of(std::span<const Json> states) {
 Json pooled_distributions(std::span<const Json> states) {
   return {{"forces", forces_of(states)},
           {"pairs", pairs_of(states)},
-          {"face_face", angles_of(states, "face_face")},
-          {"edge_face", angles_of(states, "edge_face")}};
+          {"face_face", angles_of(states, [](const AngleHistogram& all) { return all.face_face; })},
+          {"edge_face", angles_of(states, [](const AngleHistogram& all) { return all.edge_face_of_others(0); })}};
 }
 
 }  // namespace isojam

@@ -131,6 +131,10 @@ TEST(Program, NamesWrongAndMissingArguments) {
       {{"run", "m.json", "--colour", "never"}, "unknown option \"--colour\"; did you mean \"--color\"?"},
       {{"run", "--dryrun"}, "unknown option \"--dryrun\"; did you mean \"--dry-run\"?"},
       {{"--helpp"}, "unknown option \"--helpp\"; did you mean \"--help\"?"},
+      {{"run", "m.json", "--jobs", "2"}, "unknown option \"--jobs\"; did you mean \"-j\"?"},
+      {{"status", ".", "--jobs"}, "unknown option \"--jobs\"; expected one of \"--help\", \"--version\""},
+      {{"aggregate", ".", "--exclude", "crystal"},
+       "--exclude: unknown flag \"crystal\"; did you mean \"crystalline\"?"},
       {{"-q"}, "unknown option \"-q\"; expected one of \"--help\""},
       {{}, "a command is required; see \"isojam --help\""},
       {{"run"}, "MANIFEST is required; see \"isojam run --help\""},
@@ -170,6 +174,25 @@ TEST(Program, AMissingOrEmptyDirectoryHasTheSameErrorInEveryCommand) {
       EXPECT_EQ(run.exit_code, 2) << command[0];
       EXPECT_EQ(run.err, expected) << command[0];
     }
+  }
+}
+
+TEST(Program, AFileForADirectoryAndADirectoryForAFileAreRefusedWithTheRemedy) {
+  const TemporaryDirectory directory;
+  test::write_text(directory / "m.json", test::good_manifest().dump());
+  std::filesystem::create_directory(directory / "r");
+  std::filesystem::create_directory(directory / "empty");
+  test::write_text(directory / "r/manifest.json", test::good_manifest().dump());
+  for (const std::string command : {"aggregate", "status", "report", "measure"}) {
+    const auto run = isojam({command, "m.json"}, directory.path());
+    EXPECT_EQ(run.exit_code, 2) << command;
+    EXPECT_EQ(run.err, "isojam: error: m.json: is not a directory; give a results directory of isojam run\n");
+  }
+  for (const std::string command : {"run", "validate"}) {
+    EXPECT_EQ(isojam({command, "r"}, directory.path()).err,
+              "isojam: error: r: is a directory; give a manifest, for example r/manifest.json\n");
+    EXPECT_EQ(isojam({command, "empty"}, directory.path()).err,
+              "isojam: error: empty: is a directory; give a manifest\n");
   }
 }
 

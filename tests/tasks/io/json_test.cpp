@@ -110,6 +110,10 @@ TEST(JsonPlace, SuggestsTheNearestNameOrNone) {
   EXPECT_EQ(nearest_name("cubes", names), "cube");
   EXPECT_EQ(nearest_name("sphere", names), "");
   EXPECT_EQ(nearest_name("", names), "");
+  constexpr std::array<std::string_view, 3> flags{"crystalline", "not_balanced", "not_stable"};
+  EXPECT_EQ(nearest_name("crystal", flags), "crystalline");
+  EXPECT_EQ(nearest_name("cr", flags), "");
+  EXPECT_EQ(nearest_name("not_", flags), "") << "two names begin with it";
 }
 
 }  // namespace

@@ -164,7 +164,9 @@ TEST_F(Adding, OneAfterAnotherGivesTheSame) {
   EXPECT_EQ(record("few", names().front()).at("provenance").at("added").size(), 4U);
   const auto again = files_below(here_ / "few");
   EXPECT_EQ(measure({"--add", "modes"}).exit_code, 0);
-  EXPECT_EQ(measure({}).exit_code, 0);
+  const auto nothing = measure({});
+  EXPECT_EQ(nothing.exit_code, 0);
+  EXPECT_EQ(nothing.err.find("adding measures"), std::string::npos) << nothing.err;
   EXPECT_EQ(files_below(here_ / "few"), again) << "nothing was left to add";
 }
 

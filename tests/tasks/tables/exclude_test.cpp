@@ -90,6 +90,16 @@ TEST_F(ExcludeTest, BothMeansArePrinted) {
   }
 }
 
+TEST_F(ExcludeTest, TheStatusNamesTheFlagsAndADryRunOfAFinishedStudyNeedsNothing) {
+  write("r");
+  const auto status = test::isojam({"status", "r"}, directory_.path()).out;
+  EXPECT_NE(status.find("1 failed, 2 flagged (crystalline 1, goal_not_reached 1), 0 running\n"), std::string::npos)
+      << status;
+  const auto plan = test::isojam({"run", "r/manifest.json", "-o", "r", "--dry-run"}, directory_.path()).out;
+  EXPECT_NE(plan.find("remaining: nothing\n"), std::string::npos) << plan;
+  EXPECT_EQ(plan.find("0 B"), std::string::npos) << plan;
+}
+
 TEST_F(ExcludeTest, TheManifestChoosesAndTheCommandOverrides) {
   write("r", [](Json& manifest) { manifest["exclude"] = Json{"goal_not_reached"}; });
   const auto chosen = table({"r"});

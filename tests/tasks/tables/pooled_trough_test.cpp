@@ -2,6 +2,7 @@
 // - A histogram is the same after it was packed.
 // - Single packings have too few contacts for a trough, and all together have one. The numbers with its cut-offs are
 //   those of the contacts of all packings. With one packing, they are its own numbers.
+// - Many packings are combined into groups. The result does not depend on the order in which they are added.
 // - Tables have the pooled troughs of the nearest states and at every distance of a series. The histograms are
 //   interpolated in ln Δφ. Failed and excluded replicates do not count.
 // - The tables conform to their schema. Text, LaTeX and CSV contain the estimates. Records without histograms give
@@ -57,19 +58,18 @@ void expect_equal(const AngleHistogram& a, const AngleHistogram& b) {
 TEST(PooledTrough, IsOfTheContactsOfAllPackings) {
   RandomStream random{70};
   constexpr int particles = 10;
-  std::vector<PackedAngles> packed;
+  PooledAngles packings, one;
   AngleHistogram total;
   total.face_face_window = total.edge_face_window = angle_bins;
   for (int k = 0; k < 16; ++k) {
     const AngleHistogram own = packing_with(3, 4, 40, random);
     EXPECT_FALSE(trough_cutoffs(own).has_all());
-    packed.emplace_back(own);
-    expect_equal(packed.back().unpacked(), own);
+    expect_equal(PackedAngles(own).unpacked(), own);
+    packings.add("study", k, own);
+    if (k == 0) one.add("study", k, own);
     total.add(own);
   }
-  std::vector<const PackedAngles*> packings;
-  for (const PackedAngles& each : packed) packings.push_back(&each);
-  const auto pooled = pooled_trough(packings, particles, "key");
+  const auto pooled = packings.trough(particles, "key");
   ASSERT_TRUE(pooled && pooled->cutoffs.has_all());
   EXPECT_EQ(pooled->replicates, 16);
   EXPECT_EQ(pooled->particles, 160);
@@ -80,10 +80,51 @@ TEST(PooledTrough, IsOfTheContactsOfAllPackings) {
     EXPECT_EQ(pooled->estimates[i].n, 16);
   }
   EXPECT_GT(*pooled->estimates[3].half_width, 0);
-  EXPECT_FALSE(pooled_trough({}, particles, "key"));
-  const auto undecided = pooled_trough({packings.front()}, particles, "key");
+  EXPECT_TRUE(pooled->estimates[3].bootstrap95);
+  EXPECT_FALSE(PooledAngles().trough(particles, "key"));
+  const auto undecided = one.trough(particles, "key");
   ASSERT_TRUE(undecided);
   EXPECT_EQ(undecided->estimates[3].n, 0);
+}
+
+/// The pooled trough of a hundred packings of two studies, and the numbers of face-face contacts of the packings.
+std::pair<PooledTrough, std::vector<double>> of_a_hundred(bool backwards) {
+  constexpr int packings = 100;
+  RandomStream random{72};
+  std::vector<AngleHistogram> list;
+  for (int k = 0; k < packings; ++k) {
+    // Interpolated numbers are not integers. Their sum would depend on the order without rounding.
+    AngleHistogram own = packing_with(3, 4, 40, random);
+    own.add(packing_with(3, 4, 40, random), 1 / 3.0);
+    list.push_back(own);
+  }
+  PooledAngles pooled;
+  for (int i = 0; i < packings; ++i) {
+    const int k = backwards ? packings - 1 - i : i;
+    pooled.add(k % 2 ? "one" : "other", k, list[static_cast<std::size_t>(k)]);
+  }
+  auto found = *pooled.trough(10, "key");
+  std::vector<double> numbers;
+  for (const auto& own : list) numbers.push_back(trough_numbers(own, 10, found.cutoffs).numbers.Z_ff);
+  return {found, numbers};
+}
+
+TEST(PooledTrough, OfManyPackingsHasAFewGroupsThatDoNotDependOnTheOrder) {
+  const auto [pooled, numbers] = of_a_hundred(false);
+  ASSERT_TRUE(pooled.cutoffs.has_all());
+  const auto& grouped = pooled.estimates[0];
+  const auto expected = estimate(numbers, 0);
+  EXPECT_EQ(grouped.n, 100);
+  EXPECT_NEAR(*grouped.mean, *expected.mean, 1e-5);
+  // The groups estimate the same standard deviation with fewer degrees of freedom.
+  EXPECT_NEAR(*grouped.sd / *expected.sd, 1, 0.35);
+  EXPECT_NE(*grouped.sd, *expected.sd);
+  EXPECT_FALSE(grouped.bootstrap95);
+  const auto again = of_a_hundred(true).first;
+  for (std::size_t i = 0; i < PooledTrough::names.size(); ++i) {
+    EXPECT_EQ(*again.estimates[i].mean, *pooled.estimates[i].mean) << PooledTrough::names[i];
+    EXPECT_EQ(*again.estimates[i].half_width, *pooled.estimates[i].half_width) << PooledTrough::names[i];
+  }
 }
 
 /// Outcomes of one row. State k of a packing has histograms with more edges than state k − 1.
@@ -163,6 +204,8 @@ TEST(PooledTrough, IsInAllTables) {
   EXPECT_TRUE(json.at("rows").at(0).at("series").at(0).contains("pooled_trough"));
   for (const View view : {View::nearest, View::series}) {
     EXPECT_NE(to_text(table, view).find("troughs in the angles of all replicates together"), std::string::npos);
+    for (const auto* head : {"ff low", "ff high", "ef low", "ef high"})
+      EXPECT_NE(to_text(table, view).find(head), std::string::npos) << head;
     EXPECT_NE(to_latex(table, view).find("\\theta_{ef}"), std::string::npos);
     EXPECT_NE(to_csv(table, view).find(",C_pooled_mean,"), std::string::npos);
     EXPECT_NE(to_long_csv(table, view).find(",C_pooled,"), std::string::npos);

@@ -151,6 +151,29 @@ TEST(Estimate, SteinsIntervalUsesTheSpreadOfTheFirstValues) {
   EXPECT_FALSE(stein_half_width({1.0}, 8));
 }
 
+TEST(Estimate, IntervalsOfGroupsContainTheMeanAsOftenAsStated) {
+  RandomStream random{21};
+  int inside = 0;
+  double variance = 0;
+  for (int i = 0; i < samples; ++i) {
+    std::vector<double> means;
+    std::vector<int> sizes;
+    for (int size = 1; size <= 6; ++size) {
+      means.push_back(random.normal() / std::sqrt(size));
+      sizes.push_back(size);
+    }
+    const auto result = estimate_of_groups(means, sizes);
+    EXPECT_EQ(result.n, 21);
+    inside += result.ci95->low <= 0 && 0 <= result.ci95->high;
+    variance += *result.sd * *result.sd / samples;
+  }
+  EXPECT_NEAR(100.0 * inside / samples, 95, uncertainty);
+  EXPECT_NEAR(variance, 1, 0.05);
+  const auto alone = estimate_of_groups({2}, {9});
+  EXPECT_EQ(*alone.mean, 2);
+  EXPECT_FALSE(alone.half_width);
+}
+
 TEST(Estimate, WilsonsIntervalAgreesWithPublishedValues) {
   struct Published {
     int successes, n;

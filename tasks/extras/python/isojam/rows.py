@@ -14,7 +14,7 @@ _SHORT = 64
 
 
 class Rows:
-    """Named numpy arrays of equal length. rows["phi_j"] is a column; rows[rows["Z"] > 8] are some of the rows.
+    """Named numpy arrays of equal length. rows["phi_j"] or rows.phi_j is a column; rows[rows["Z"] > 8] are some of the rows.
 
     The values of a column are numbers (null is NaN), texts (null is ""), truth values, or objects: tuples of flags, or
     dicts of reasons. A vector is one column of shape (rows, 3). A column is the array itself, not a copy."""
@@ -56,6 +56,15 @@ class Rows:
         if not isinstance(chosen, slice) and chosen.size == 0:
             chosen = chosen.astype(int)
         return Rows({name: values[chosen] for name, values in self._columns.items()})
+
+    def __getattr__(self, name: str) -> Array:
+        """rows.phi_j is rows["phi_j"], unless Rows has a member of this name."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return self._column(name)
+        except KeyError as error:
+            raise AttributeError(error.args[0]) from None
 
     def __iter__(self) -> Iterator[dict[str, Any]]:
         """Iterates over the rows; each is a dict."""
