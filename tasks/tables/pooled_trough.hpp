@@ -54,8 +54,8 @@ class PooledAngles {
   static constexpr std::size_t most_groups = 32;
   /// Adds a replicate, which has not been added before. The result does not depend on the order.
   void add(const std::string& study, int replicate, const AngleHistogram& histogram);
-  /// Finds the troughs of all replicates, which have the same number of particles. nullopt if there are no replicates. `key` is
-  /// the text from which the random numbers of the bootstrap are derived.
+  /// Finds the troughs of all replicates, which have the same number of particles. nullopt if there are no replicates.
+  /// `key` is the text from which the random numbers of the bootstrap are derived.
   std::optional<PooledTrough> trough(int particles, const std::string& key) const;
 
  private:
