@@ -34,7 +34,7 @@ done
 
 isojam run quick.json -o with >/dev/null 2>with.log
 env $without_avx2 isojam run quick.json -o without >/dev/null 2>without.log
-lines() { grep -c 'has no AVX2 and FMA' "$1" || true; }
+lines() { grep -c 'does not have both AVX2 and FMA' "$1" || true; }
 [[ $(lines without.log) = 1 ]] || fail "$(lines without.log) lines say that AVX2 is not used, instead of 1: $(cat without.log)"
 if grep -qw avx2 /proc/cpuinfo; then
   [[ $(lines with.log) = 0 ]] || fail "AVX2 is not used: $(cat with.log)"
