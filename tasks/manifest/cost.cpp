@@ -9,23 +9,23 @@
 namespace isojam {
 namespace {
 
-/// CPU seconds of a replicate with N = 100 and the default protocol: of compression, and of decompression to Δφ = 0.01.
-/// The latter is proportional to Δφ^−power. Fitted to the studies of examples/paper and examples/rigidity, see
-/// docs/accuracy.md.
+/// CPU seconds of a replicate with N = 100 and the default step lengths: of compression with at most 500 evaluations for
+/// a state, and of decompression to Δφ = 0.01. The latter is proportional to Δφ^−power. Fitted to studies of the
+/// examples, see docs/accuracy.md.
 struct JamLaw {
   double compression, decompression, power;
 };
-constexpr std::array<JamLaw, all_solids.size()> jam_laws{{{6.2, 1.6, 0.8},    // tetrahedron
-                                                          {3.6, 1.8, 0.55},   // cube
-                                                          {2.5, 1.4, 0.58},   // octahedron
-                                                          {2.5, 1.15, 0.53},  // dodecahedron
-                                                          {2.1, 1.2, 0.5}}};  // icosahedron
-/// The values of the parameters in these studies.
-constexpr double law_distance = 0.01, law_fraction = 0.3, law_step = 0.02, law_evaluations = 2000, law_particles = 100;
+constexpr std::array<JamLaw, all_solids.size()> jam_laws{{{2.3, 1.2, 0.54},     // tetrahedron
+                                                          {1.8, 1.0, 0.6},      // cube
+                                                          {1.3, 0.63, 0.57},    // octahedron
+                                                          {1.25, 0.58, 0.69},   // dodecahedron
+                                                          {1.1, 0.49, 0.66}}};  // icosahedron
+/// The values of the parameters for which these times hold.
+constexpr double law_distance = 0.01, law_fraction = 0.35, law_step = 0.02, law_evaluations = 500, law_particles = 100;
 /// Powers of N, and of the number of evaluations for a state of the compression.
-constexpr double size_power = 1.55, evaluations_power = 0.6;
+constexpr double compression_size_power = 1.2, decompression_size_power = 1.8, evaluations_power = 0.6;
 /// Factors of the compression if the target applies before relaxation, and of both stages if the cell shape relaxes.
-constexpr double gentle = 0.65, free_cell = 1.5;
+constexpr double gentle = 0.65, free_cell = 1.2;
 
 /// Δφ of the first state of a decompression.
 constexpr double first_distance = 0.13;
@@ -45,12 +45,14 @@ double jam_seconds(const ReplicateSpec& spec) {
   const auto& first = spec.options.compression;
   const auto& second = spec.options.decompression;
   const double evaluations = std::min<double>(first.evaluations, first.relaxation == Consolidation::hasty ? 50 : 1e9);
-  double up = compression * law_step / first.step;
-  up *= nearest::pow(std::min(evaluations, 4 * law_evaluations) / law_evaluations, evaluations_power);
+  const double size = spec.particles / law_particles;
+  double up = compression * law_step / first.step * nearest::pow(size, compression_size_power);
+  up *= nearest::pow(std::min(evaluations, 16 * law_evaluations) / law_evaluations, evaluations_power);
   if (first.target_before_relaxation) up *= gentle;
   if (spec.start && spec.start->stage == JamStage::expansion) up = 0;
   const double down = decompression * nearest::pow(law_distance / second.final_distance, power) *
-                      nearest::log(1 - law_fraction) / nearest::log(1 - std::min(second.step_fraction, 0.9));
+                      nearest::log(1 - law_fraction) / nearest::log(1 - std::min(second.step_fraction, 0.9)) *
+                      nearest::pow(size, decompression_size_power);
   return (up + down) * (spec.options.cell == CellShape::free ? free_cell : 1);
 }
 
@@ -60,13 +62,15 @@ struct MeasureLaw {
   double at_100, power;
 };
 constexpr std::array measure_laws{
-    MeasureLaw{Measure::contacts, 0.006, 1},        MeasureLaw{Measure::order, 0.002, 1.6},
-    MeasureLaw{Measure::clusters, 0.005, 1.1},      MeasureLaw{Measure::modes, 0.035, 1.75},
-    MeasureLaw{Measure::moduli, 0.05, 2},           MeasureLaw{Measure::strict, 0.05, 2},
-    MeasureLaw{Measure::rigidity, 0.03, 2},         MeasureLaw{Measure::backbone, 0.09, 3},
-    MeasureLaw{Measure::difference_modes, 0.45, 3}, MeasureLaw{Measure::prestress, 0.125, 1.6},
+    MeasureLaw{Measure::contacts, 0.009, 1},       MeasureLaw{Measure::order, 0.0025, 1.6},
+    MeasureLaw{Measure::clusters, 0.005, 1.1},     MeasureLaw{Measure::modes, 0.035, 1.75},
+    MeasureLaw{Measure::moduli, 0.05, 2},          MeasureLaw{Measure::strict, 0.05, 2},
+    MeasureLaw{Measure::rigidity, 0.03, 2},        MeasureLaw{Measure::backbone, 0.06, 3},
+    MeasureLaw{Measure::difference_modes, 0.5, 3}, MeasureLaw{Measure::prestress, 0.22, 1.6},
     MeasureLaw{Measure::gaps, 0.065, 1.1},
 };
+/// The rank of the constraints takes this many times longer for tetrahedra, which have many states of self-stress.
+constexpr double rank_of_tetrahedra = 7;
 /// CPU seconds of a load step of the shear with N = 100.
 constexpr double shear_step = 0.1;
 
@@ -75,11 +79,14 @@ double measure_seconds(const ReplicateSpec& spec, double states) {
   double seconds = 0;
   for (const auto what : spec.measures) {
     for (const auto& law : measure_laws) {
-      if (law.what == what) seconds += states * law.at_100 * nearest::pow(size, law.power);
+      const bool slow = what == Measure::rigidity && spec.solid == Mixture(SolidKind::tetrahedron);
+      if (law.what == what)
+        seconds += states * law.at_100 * nearest::pow(size, law.power) * (slow ? rank_of_tetrahedra : 1);
     }
     if (what != Measure::shear) continue;
     const auto& shear = spec.measuring.shear;
-    seconds += shear.until / shear.step * (shear.back ? 2 : 1) * shear_step * nearest::pow(size, size_power);
+    seconds +=
+        shear.until / shear.step * (shear.back ? 2 : 1) * shear_step * nearest::pow(size, decompression_size_power);
   }
   return seconds;
 }
@@ -103,7 +110,7 @@ Cost estimated_cost(const ReplicateSpec& spec, bool keep_path) {
   const double states =
       1 + steps_to(spec.options.decompression.final_distance, spec.options.decompression.step_fraction);
   Cost cost;
-  cost.cpu_seconds = jam_seconds(spec) * nearest::pow(n / law_particles, size_power) + measure_seconds(spec, states);
+  cost.cpu_seconds = jam_seconds(spec) + measure_seconds(spec, states);
   cost.memory_bytes = particle_bytes * n + factor_bytes * nearest::pow(n, factor_power);
   const double steps = states + steps_of_compression * law_step / spec.options.compression.step;
   const double packings = keep_path ? 1 + states : 1;

@@ -17,63 +17,33 @@
 namespace isojam {
 namespace {
 
-const std::string examples = ISOJAM_SOURCE_DIR "/examples/";
+/// CPU times of recorded replicates: for each manifest, a list of objects with the solid, the number of particles, the
+/// swept parameters, the number of replicates, and the sum of their times.
+const std::string measured_file = ISOJAM_SOURCE_DIR "/tests/tasks/manifest/measured_costs.json";
 
-/// CPU time of the stages that the manifest requests. Other measures were added later.
-double measured_seconds(const Json& replicate, const ReplicateSpec& spec) {
-  if (!replicate.contains("stages")) return replicate.at("cpu");
-  const auto& stages = replicate.at("stages");
-  double seconds = stages.at("jam");
-  for (const auto measure : spec.measures) {
-    const std::string name(to_string(measure));
-    if (stages.contains(name)) seconds += stages.at(name).get<double>();
+double estimated_seconds(const Plan& plan, const Json& measured) {
+  for (std::size_t point = 0; point < plan.points(); ++point) {
+    const auto spec = plan.at(point, 0);
+    if (to_string(spec.solid) == measured.at("solid") && spec.particles == measured.at("particles") &&
+        spec.parameters == measured.at("parameters"))
+      return measured.at("replicates").get<double>() * estimated_cost(spec, false).cpu_seconds;
   }
-  return seconds;
+  ADD_FAILURE() << "no sweep point is " << measured;
+  return 0;
 }
-
-bool is_of(const Json& replicate, const ReplicateSpec& spec) {
-  if (replicate.at("solid") != to_string(spec.solid) || replicate.at("particles") != spec.particles) return false;
-  if (!replicate.contains("setting")) return true;
-  const auto& setting = replicate.at("setting");
-  const auto& compression = spec.options.compression;
-  return setting.at("before") == compression.target_before_relaxation && setting.at("step") == compression.step &&
-         setting.at("budget") == compression.evaluations;
-}
-
-struct Study {
-  const char *manifest, *data, *name;
-};
 
 TEST(Cost, AgreesWithTwelveStudies) {
-  for (const auto& [manifest, data, name] :
-       {Study{"paper/n100", "paper/data/records", "paper-100"},
-        Study{"paper/n100-tetrahedra", "paper/data/records", "paper-100-tetrahedra"},
-        Study{"paper/n400", "paper/data/records", "paper-400"},
-        Study{"paper/n400-tetrahedra", "paper/data/records", "paper-400-tetrahedra"},
-        Study{"paper/cubes", "paper/data/records", "paper-cubes"},
-        Study{"paper/rule-base", "paper/data/records", "paper-rule-base"},
-        Study{"paper/search-protocol", "paper/data/search", "paper-search-protocol"},
-        Study{"paper/search-400", "paper/data/search", "paper-search-400"},
-        Study{"rigidity/n50", "rigidity/data/records", "rigidity-50"},
-        Study{"rigidity/n50-tetrahedra", "rigidity/data/records", "rigidity-50-tetrahedra"},
-        Study{"rigidity/n200", "rigidity/data/records", "rigidity-200"},
-        Study{"rigidity/n800", "rigidity/data/records", "rigidity-800"}}) {
-    const Plan plan(read_manifest(examples + manifest + ".json"));
-    const auto file = examples + data + ".json";
-    const auto study = parse_json(read_file(file), file).at(name);
+  const auto studies = parse_json(read_file(measured_file), measured_file);
+  EXPECT_GE(studies.size(), 12);
+  for (const auto& study : studies.items()) {
+    const Plan plan(read_manifest(ISOJAM_SOURCE_DIR "/examples/" + study.key()));
     double measured = 0, estimated = 0;
-    for (const auto& replicate : study.is_object() ? study.at("replicates") : study) {
-      if (replicate.at("status") != "done") continue;
-      for (std::size_t point = 0; point < plan.points(); ++point) {
-        const auto spec = plan.at(point, 0);
-        if (!is_of(replicate, spec)) continue;
-        measured += measured_seconds(replicate, spec);
-        estimated += estimated_cost(spec, false).cpu_seconds;
-      }
+    for (const auto& point : study.value()) {
+      measured += point.at("seconds").get<double>();
+      estimated += estimated_seconds(plan, point);
     }
-    std::printf("| `%s.json` | %.0f | %.0f | %.2f |\n", manifest, measured, estimated, estimated / measured);
-    EXPECT_GT(measured, 0) << name;
-    EXPECT_LT(std::max(estimated / measured, measured / estimated), 1.5) << name;
+    std::printf("| `%s` | %.0f | %.0f | %.2f |\n", study.key().c_str(), measured, estimated, estimated / measured);
+    EXPECT_LT(std::max(estimated / measured, measured / estimated), 1.5) << study.key();
   }
 }
 
