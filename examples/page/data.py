@@ -77,6 +77,9 @@ class Data:
     def main(self):
         return [study for name, study in self.studies.items() if name != PROTOCOL]
 
+    def sizes_without_troughs(self):
+        return {r["particles"] for study in self.main() if "troughs" not in study for r in study["replicates"]}
+
     def all_of(self, solid, particles):
         return [r for study in self.main() for r in study["replicates"]
                 if r["solid"] == solid and r["particles"] == particles]

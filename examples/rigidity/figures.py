@@ -46,7 +46,7 @@ def angles(data, out):
         fitted = data.nearest(solid, particles, "cut_ef")
         if fitted:
             axes.annotate("", (fitted["mean"], 0.05), (fitted["mean"], 0.02), arrowprops={"arrowstyle": "-|>"})
-        axes.set(xscale="log", yscale="log", xlim=(3e-8, 2), ylim=(0.02, 12))
+        axes.set(xscale="log", yscale="log", xlim=(3e-8, 2), ylim=(0.02, 300))
         axes.legend(loc="upper left", handlelength=1.4)
         letter(axes, name, f"{solid}, N = {particles}")
     figure.supxlabel("alignment angle θ$_{ef}$ (rad)", fontsize=8.5)

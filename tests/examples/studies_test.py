@@ -214,9 +214,9 @@ class Gathered(unittest.TestCase):
 
 
 class Anew(unittest.TestCase):
-    # The data were computed by version 0.1.0. Its compression gives the same bits as that of later versions, but after a
-    # rearrangement of the decompression later versions reach other states. A single packing then has another φ_J, within
-    # the spread of φ_J between packings.
+    # The data were computed by an earlier version. Its compression gives the same bits, but after a rearrangement of the
+    # decompression the present version can reach other states. A single packing then has another φ_J, within the spread
+    # of φ_J between packings.
     BY_REARRANGEMENTS = 0.01
 
     def test_replicates_of_the_studies(self):
