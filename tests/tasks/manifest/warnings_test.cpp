@@ -43,7 +43,7 @@ TEST(Warnings, DefaultsAndExamplesHaveNone) {
     ++seen;
     // This example uses too few evaluations on purpose.
     const auto name = entry.path().filename();
-    const std::size_t expected = name == "search-protocol.json" || name == "search-400.json" ? 1 : 0;
+    const std::size_t expected = name == "protocol.json" ? 1 : 0;
     EXPECT_EQ(warnings_of(read_manifest(entry.path().string())).size(), expected) << entry.path();
   }
   EXPECT_GT(seen, 10);
