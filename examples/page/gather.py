@@ -68,8 +68,13 @@ def constraints_by_gap(state, particles):
         return None
     ff, ef = (bin_of(gap["cutoff"], bins["width"]) for gap in gaps)
     flat = counts_below(bins["face_face"], ff)
-    edges = counts_below(bins["edge_face"], ef) - sum(n for a, b, n in bins["cells"] if a < ff and b < ef)
+    edges = counts_below(bins["edge_face"], ef) - sum(n for a, b, n in cells_of(bins) if a < ff and b < ef)
     return state["contacts"]["Z"] + 2 * (2 * flat + edges) / particles
+
+
+def cells_of(bins):
+    """Triples of a bin of θ_ff, a bin of θ_ef and the number of contacts with both."""
+    return zip(*[iter(bins["cells"])] * 3)
 
 
 def columns_of(states, particles):
@@ -112,7 +117,7 @@ def histogram(bins_of_states, kind, below=None):
     for bins in bins_of_states:
         for k, count in enumerate(bins[kind]["counts"], bins[kind]["first"]):
             sums[k] = sums.get(k, 0) + count
-        for a, b, count in bins["cells"] if below is not None else ():
+        for a, b, count in cells_of(bins) if below is not None else ():
             if a < below:
                 sums[b] -= count
     used = [k for k, count in sums.items() if count]

@@ -9,8 +9,8 @@
 namespace isojam {
 namespace {
 
-/// CPU seconds of a replicate with N = 100 and the default step lengths: of compression with at most 500 evaluations for
-/// a state, and of decompression to Δφ = 0.01. The latter is proportional to Δφ^−power. Fitted to studies of the
+/// CPU seconds of a replicate with N = 100 and the default step lengths. `compression` is for at most 500 evaluations
+/// for a state, `decompression` for Δφ = 0.01. The latter is proportional to Δφ^−power. Fitted to studies of the
 /// examples, see docs/accuracy.md.
 struct JamLaw {
   double compression, decompression, power;

@@ -172,7 +172,7 @@ class Chart(unittest.TestCase):
         told = self.browser.run("return [...document.querySelectorAll('#conclusion li')].map((line) => line.textContent)")
         self.assertEqual(told, [line.replace("phi_J", "φJ") for line in self.data["conclusion"]])
         for residual in CONFIG["tolerances"]:
-            self.assertEqual(sum(f"residual of {residual:g}" in line for line in told), 1, told)
+            self.assertEqual(sum(f"residual {residual:g} is reached" in line for line in told), 1, told)
 
     def test_the_atlas_is_all_there(self):
         rows = self.data["atlas"]["rows"]

@@ -93,7 +93,7 @@ TEST_P(Multipliers, FindTheEquilibriaThatNewtonFinds) {
       SCOPED_TRACE("from Δφ " + std::to_string(from.distance) + " by " + std::to_string(ratio));
       ASSERT_TRUE(is_equilibrium(found.summary)) << to_string(found.summary.reason);
       EXPECT_NEAR(found.packing.density(), from.packing.density() - ratio * from.distance, 1e-14);
-      const Evaluation fresh = PackingEnergy().evaluate(found.packing, Precision::double_double);
+      const Evaluation fresh = PackingEnergy().evaluate(found.packing, found.summary.precision);
       EXPECT_EQ(found.summary.energy, fresh.energy);
       EXPECT_EQ(found.summary.residual, fresh.residual);
       EXPECT_LE(fresh.residual, 1e-6);

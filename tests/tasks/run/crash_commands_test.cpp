@@ -230,9 +230,11 @@ TEST_F(Crash, ADryRunWritesNothing) {
   copy_reference();
   const auto before = test::files_below(here_.path());
   const auto done = isojam({"run", "m.json", "-o", "results", "--dry-run"}, here_.path());
-  EXPECT_NE(done.out.find("times estimated from 6 records of this directory"), std::string::npos) << done.out;
   EXPECT_NE(done.out.find("remaining: nothing"), std::string::npos) << done.out;
   EXPECT_EQ(test::files_below(here_.path()), before);
+  fs::remove(here_ / "results" / "records" / "dodecahedron-N28-r0001.json");
+  const auto rest = isojam({"run", "m.json", "-o", "results", "--dry-run"}, here_.path());
+  EXPECT_NE(rest.out.find("times estimated from 5 records of this directory"), std::string::npos) << rest.out;
 }
 
 }  // namespace
