@@ -44,8 +44,8 @@ class HullPoints {
 
 /// Triangulates the convex hull of those points whose indices are in `use`, by adding one point after another. Points
 /// inside the hull are in no triangle. Points that are exactly on a face or an edge may be in triangles. If points
-/// coincide, at most one of them is. Four or more corners in one plane are divided into triangles in this plane. The
-/// time is O(n²). Throws NoSolid (hull.hpp) if all points are in one plane.
+/// coincide, at most one of them is a corner of triangles. Four or more corners in one plane are divided into triangles
+/// in this plane. The time is O(n²). Throws NoSolid (hull.hpp) if all points are in one plane.
 std::vector<HullTriangle> hull_triangles(const HullPoints& points, std::span<const int> use);
 
 /// Six times the volume of a closed surface of polygons, which are lists of indices of `points`.

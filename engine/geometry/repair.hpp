@@ -18,7 +18,7 @@ inline constexpr double suspect_angle = 1e-3;
 struct RepairOptions {
   /// Length within which points are welded and faces are joined, relative to the diameter of the points. Points that
   /// are at most this far apart are welded into one. Adjacent faces are joined if all of their corners are within this
-  /// distance of one plane. A corner then moves by at most largest_planar_move (planar_faces.hpp) of these lengths.
+  /// distance of one plane. A corner then moves by at most largest_planar_move (planar_faces.hpp) times `merge`.
   double merge = 0;
   /// Omits points that are not corners of the convex hull. If false, such a point is an error, unless it is within
   /// `merge` of a face.
@@ -45,8 +45,8 @@ struct RepairReport {
 /// The corners of a repaired solid.
 struct RepairedSolid {
   /// The corners. If nothing was repaired these are the given points. If points were only welded, omitted or removed,
-  /// they have the coordinates of given points. If faces were joined, their origin is the centre of their bounding box,
-  /// and their unit of length is that of the given points. ConvexSolid makes the same solid from them each time.
+  /// they have the coordinates of given points. If faces were joined, the origin is the centre of their bounding box,
+  /// and the unit of length is that of the given points. ConvexSolid makes the same solid from the corners each time.
   std::vector<Eigen::Vector3d> vertices;
   RepairReport report;  ///< the repairs that were made
 };
@@ -56,7 +56,7 @@ struct RepairedSolid {
 std::vector<std::size_t> welded(std::span<const Eigen::Vector3d> points, double distance);
 
 /// Repairs the convex hull of up to 5000 points: welds points, joins faces, omits inner points and removes corners, in
-/// this order, as far as `options` allows it. Points that joining leaves on a face or an edge are omitted too. Throws
+/// this order, as far as `options` allows it. Points that are no longer corners are then omitted too. Throws
 /// NoSolid (hull.hpp) if the points span no volume, if a point is not a corner and options.hull is false, if joined
 /// faces cannot be made planar by moves of the order of options.merge, or if the result has too many features for
 /// ConvexSolid. NoSolid::vertex() is an index of `points`.

@@ -9,7 +9,7 @@ namespace isojam {
 
 /// Symmetric matrix that consists of 6×6 blocks: one diagonal block per particle and one off-diagonal block per pair of
 /// touching particles. If strains of the cell are also coordinates, the matrix has additional rows and columns for the
-/// strains. They are called the border.
+/// strains: `border` and `corner`.
 struct BlockMatrix {
   /// An off-diagonal block.
   struct Block {

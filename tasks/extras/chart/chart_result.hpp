@@ -22,7 +22,7 @@ struct PartCost {
 };
 
 /// Results of run_chart().
-// NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
+// NOLINTNEXTLINE(bugprone-exception-escape): moving a Json never throws, but the check assumes that its assertions can.
 struct ChartResult {
   std::vector<ChartFamily> families;
   std::optional<ChartAtlas> atlas;  ///< nullopt if the configuration does not request the atlas
