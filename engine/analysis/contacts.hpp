@@ -46,8 +46,8 @@ struct ShapePair {
 
 /// Result of analyse_contacts(). If particles have several shapes, `pairs` contains the cut-offs of each pair of
 /// shapes, and the members of the base class summarise them. The critical angles are then the smallest of all pairs.
-/// Each fit and each gap is that of one pair of shapes: a pair without a cut-off if there is one, otherwise a pair with
-/// a doubtful fit, otherwise any pair.
+/// Each fit and each gap is a copy from the least conclusive pair of shapes: a pair without a cut-off if there is one,
+/// otherwise a pair with a doubtful fit, otherwise any pair.
 struct ContactAnalysis : ClassCutoffs {
   std::vector<ShapePair> pairs;  ///< pairs of shapes that have contacts; empty if there is only one shape
   /// Number of packings whose angles were combined for the fits and gaps; 1 if the angles are those of this packing
@@ -63,7 +63,8 @@ struct ContactAnalysis : ClassCutoffs {
   std::vector<ContactNumbers> of_kinds;
   /// Difference Z_ff_gap − Z_ff; nullopt unless both methods give a cut-off.
   std::optional<double> disagreement() const;
-  /// The cut-offs for contacts between the shapes `a` and `b`, as Composition::unit() returns them.
+  /// The cut-offs for contacts between the shapes `a` and `b`, which are objects that Composition::unit() returned. If
+  /// this pair has no contacts, the result is the summary in this object.
   const ClassCutoffs& cutoffs_of(const ConvexSolid& a, const ConvexSolid& b) const;
   /// Steinhardt's Q6 of the contacts. The functions below do not set it; the caller can set it to contact_q6().
   double Q6 = 0;

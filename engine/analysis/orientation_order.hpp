@@ -60,7 +60,7 @@ struct OrderLimits {
   double S = 0, local_S = 0;
 };
 OrderLimits order_limits(unsigned rank);
-/// True if S or local_S is above its limit.
+/// True if local_S is above its limit, or if S is above its limit and above 3.5 random_S.
 bool is_aligned(const Order& order);
 /// Computes the order of a packing from all its contacts (PackingEnergy::contacts()).
 Order order_of(const Packing& packing, std::span<const Contact> contacts);

@@ -34,8 +34,9 @@ struct TroughNumbers {
 TroughNumbers trough_numbers(const AngleHistogram& histogram, int particles, const TroughCutoffs& cutoffs);
 
 /// Contact numbers per particle. Contacts are face-face if θ_ff is in the first `face_face_bins` bins, and otherwise
-/// edge-face if θ_ef is in the first `edge_face_bins` bins. The result equals that of classify() with
-/// angle_bin_edge() of both numbers. Throws std::invalid_argument if particles < 1.
+/// edge-face if θ_ef is in the first `edge_face_bins` bins. The classes are those of classify() with the cut-offs
+/// angle_bin_edge(face_face_bins) and angle_bin_edge(edge_face_bins), or 0 instead of angle_bin_edge(0). Throws
+/// std::invalid_argument if particles < 1.
 ContactNumbers numbers_in_bins(const AngleHistogram& histogram, int particles, int face_face_bins, int edge_face_bins);
 
 }  // namespace isojam

@@ -6,8 +6,8 @@
 namespace isojam {
 
 /// The quantile t with P(|T| ≤ t) = share, for 0 < share < 1. T has Student's distribution with ν = `degrees` ≥ 1
-/// degrees of freedom. P is computed from the finite series in cos² of atan(t/√ν) (Abramowitz & Stegun 26.7.3 and
-/// 26.7.4). This takes a few milliseconds for 100 000 degrees of freedom.
+/// degrees of freedom. P is computed from the finite series in cos² θ with θ = atan(t/√ν) (Abramowitz & Stegun 26.7.3
+/// and 26.7.4). This takes a few milliseconds for 100 000 degrees of freedom.
 double student_two_sided(double share, long degrees);
 
 /// The quantile x with P(X ≤ x) = share, for 0 < share < 1. X is normal with mean 0 and variance 1.

@@ -127,8 +127,10 @@ class ConvexSolid {
   static constexpr int max_faces = SolidArrays::max_faces;        ///< largest number of faces
 
   /// Makes the convex hull of `vertices`, moved so that its centroid is the origin and scaled to unit volume. Every
-  /// point of `vertices` must be a vertex of the hull. Throws NoSolid (hull.hpp), a std::invalid_argument, if a point
-  /// is not a vertex of the hull or if there are too many features.
+  /// point of `vertices` must be a vertex of the hull. The vertices are moved by distances of the order of their
+  /// rounding errors, so that all faces are exactly planar. Throws NoSolid (hull.hpp), a std::invalid_argument, if a
+  /// point is not a vertex of the hull, if points coincide or span no volume, if a face cannot be made planar, or if
+  /// there are too many features.
   ConvexSolid(std::string name, std::span<const Eigen::Vector3d> vertices);
   /// Makes the convex hull of vertices in quadruple precision. All numbers of the solid are then rounded to the nearest
   /// double, and the stored rounding errors are correct to 1e-32.
@@ -153,9 +155,9 @@ class ConvexSolid {
   double diameter() const { return diameter_; }               ///< largest distance between two vertices
   /// Radius of gyration about an axis, R = sqrt(I/m), where I is the mean principal moment of inertia and m the mass.
   double gyration_radius() const { return gyration_radius_; }
-  /// Size of a contact below which its overlap is computed in double-double, for the solid of unit volume. It is the
-  /// inradius. For a solid with more than narrow_edges edges, which may have very flat edges and blunt vertices, it is
-  /// four circumradii.
+  /// Reference length of the solid of unit volume. Parts of an overlap that are small relative to it are computed in
+  /// double-double (overlap/small_distances.hpp). It is the inradius. For a solid with more than narrow_edges edges,
+  /// which may have very flat edges and blunt vertices, it is four circumradii.
   double fine_below() const { return fine_below_; }
   /// Inertia tensor about the centroid, ∫ (|x|² − x xᵀ) dV, in the body frame. For a spherical top it is m R² times the
   /// identity.

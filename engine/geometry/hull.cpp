@@ -226,9 +226,9 @@ void refuse_other_points(const HullPoints& points, std::span<const int> use, std
     const auto faces_at = std::count_if(faces.begin(), faces.end(), [&](const FaceLoop& face) {
       return plane_of(part_of(face, all), all).height(all[k]) >= -tolerance;
     });
-    const char* where = faces_at >= 2 ? "on an edge" : faces_at == 1 ? "on a face" : "inside";
+    const char* where = faces_at >= 2 ? "on an edge of" : faces_at == 1 ? "on a face of" : "inside";
     throw NoSolid("vertex " + std::to_string(k) + " is not a corner of the convex hull: it lies " + where +
-                      " of the hull of the others",
+                      " the hull of the others",
                   NoSolid::Cause::not_a_corner, index);
   }
 }

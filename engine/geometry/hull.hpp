@@ -38,15 +38,16 @@ class NoSolid : public std::invalid_argument {
 };
 
 /// Tolerance for points that were computed and written in double: 64 ulp of the size of the point set or of its largest
-/// coordinate, whichever is larger. The size is the largest distance of a point from the mean of all points. In the
-/// unit of the points.
+/// coordinate, whichever is larger. The size is the largest distance of a point from the mean of all points. The result
+/// is in the unit of the points.
 Quad rounding_tolerance(std::span<const Quad3> points);
 
 /// Joins triangles of a convex hull to faces. A face consists of triangles that share edges, and all of its corners are
 /// within `tolerance` (in units of points.unit()) of its plane. The normal of this plane is the sum of the area vectors
-/// of the triangles, and the plane contains the mean of the corners. Among the pairs of faces that may be joined, the
-/// pair with the smallest distance is joined first. Points in which fewer than three faces meet are in no face. The
-/// faces are sorted by their three smallest vertices. Throws NoSolid if the faces do not bound a convex polyhedron.
+/// of the triangles, and the plane contains the mean of the corners. Faces are joined in pairs. The first pair is the
+/// one whose corners have the smallest maximum distance from their common plane. Points in which fewer than three faces
+/// meet are in no face. The faces are sorted by their three smallest vertices. Throws NoSolid if the faces do not bound
+/// a convex polyhedron.
 std::vector<FaceLoop> joined_faces(const HullPoints& points, std::span<const HullTriangle> triangles, double tolerance);
 
 /// Throws NoSolid if two points are nearer than `tolerance` (in units of points.unit()).

@@ -17,8 +17,9 @@ std::vector<Quad3> widened(std::span<const Eigen::Vector3d> points);
 /// Mean of the points.
 Quad3 mean_of(std::span<const Quad3> points);
 
-/// Points for exact tests of orientation. The points are moved to their centre and scaled by a power of two, so that
-/// the largest coordinate is between 1/4 and 1/2. Points that are doubles of similar magnitude are not rounded.
+/// Points for exact tests of orientation. The origin is moved to the mean of the points, rounded to double. The points
+/// are scaled by a power of two, so that the largest absolute value of a coordinate is between 1/4 and 1/2. Points that
+/// are doubles of similar magnitude are not rounded.
 class HullPoints {
  public:
   /// Throws NoSolid (hull.hpp) if there are fewer than four points or if all of them are equal.
@@ -31,8 +32,8 @@ class HullPoints {
   const Quad3& centre() const { return centre_; }  ///< origin of the scaled points, in the given coordinates
 
   /// Sign of the volume of the tetrahedron abcp: 1 if p is on the side from which abc is counter-clockwise, 0 if the
-  /// four points are in one plane. The sign is exact for the scaled points. It is computed in double, then in quadruple
-  /// precision, then with 640 bits, as long as the rounding error may change it.
+  /// four points are in one plane, otherwise −1. The sign is exact for the scaled points. It is computed in double
+  /// first. Quadruple precision, and then 640 bits, are used only if rounding errors could change the sign.
   int side(int a, int b, int c, int p) const;
 
  private:

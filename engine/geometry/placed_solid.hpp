@@ -13,7 +13,7 @@ namespace isojam {
 
 /// A placed solid: the vertices and face normals of a particle, rotated into the lab frame, relative to the centre of
 /// the particle. The object is a view of memory that PlacedSolids owns. Vectors are stored in blocks of four: x of all
-/// four vectors, then y, then z; unused elements are filled as in SolidArrays. A placed solid takes 320 bytes
+/// four vectors, then y, then z; unused elements are filled as in SolidArrays. A placed Platonic solid takes 320 bytes
 /// (tetrahedron) to 896 bytes (dodecahedron, icosahedron). In double-double, the rounding errors (low parts) of all
 /// values take the same amount of memory again.
 class PlacedSolid {

@@ -99,7 +99,8 @@ QuadMatrix widened(const DoubleDoubleMatrix& m);
 QuadPose widened(const RelativePose& pose);
 /// Rounds to the nearest doubles.
 RelativePose narrowed(const QuadPose& pose);
-/// The same in quadruple precision, from both doubles of each orientation, for quaternions of any length except 0.
+/// Computes relative_pose() in quadruple precision, from both doubles of each orientation. Quaternions may have any
+/// length except 0.
 QuadPose relative_pose(const Pose& a, const Pose& b, const Quad3& displacement);
 
 /// The normalised quaternion exp(θ)·q, where θ is a rotation vector in the lab frame (radians).

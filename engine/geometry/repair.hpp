@@ -55,11 +55,11 @@ struct RepairedSolid {
 /// at most `distance`, or if points of the group connect them. The time is O(n²) if all points have the same x.
 std::vector<std::size_t> welded(std::span<const Eigen::Vector3d> points, double distance);
 
-/// Repairs the convex hull of up to 5000 points: welds points, joins faces, omits inner points and removes corners, in
-/// this order, as far as `options` allows it. Points that are no longer corners are then omitted too. Throws
-/// NoSolid (hull.hpp) if the points span no volume, if a point is not a corner and options.hull is false, if joined
-/// faces cannot be made planar by moves of the order of options.merge, or if the result has too many features for
-/// ConvexSolid. NoSolid::vertex() is an index of `points`.
+/// Repairs the convex hull of points: welds points, omits inner points, removes corners and joins faces, in this order,
+/// as far as `options` allows it. Points that are no longer corners are then omitted too. The time is O(n²), so callers
+/// limit n to 5000. Throws NoSolid (hull.hpp) if the points span no volume, if a point is not a corner and options.hull
+/// is false, if joined faces cannot be made planar by moves of the order of options.merge, or if the result has too
+/// many features for ConvexSolid. NoSolid::vertex() is an index of `points`.
 RepairedSolid repaired(std::span<const Eigen::Vector3d> points, const RepairOptions& options);
 
 /// Properties of a solid that show whether its vertices were written with enough digits.

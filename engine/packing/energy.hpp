@@ -12,7 +12,7 @@
 
 namespace isojam {
 
-/// Energy of a packing, E = Σ_pairs V²/4 (Smith, Fisher, Alam 2011, E_αβ = Y V²/4V_p), and its derivatives. Units:
+/// Energy of a packing, E = Σ_pairs V²/4 (Smith, Fisher, Alam 2011, E_αβ = Y V²/(4 V_p)), and its derivatives. Units:
 /// energies in Y·V_p, lengths in V_p^(1/3), pressure and stress in Y.
 struct Evaluation {
   double energy = 0;       ///< E + load_energy
@@ -27,11 +27,12 @@ struct Evaluation {
   /// net torque on a particle. The residual is 0 if all F_i and T_i are 0. It is infinite if mean_force is 0 but an F_i
   /// or T_i is not. Enthalpy::of() also takes the stress into account.
   double residual = 0;
-  /// Residual that rounding errors alone can cause. A minimisation cannot reach a smaller residual.
+  /// Residual that rounding errors alone can cause. A smaller residual is not significant, so a minimisation ends when
+  /// the residual is at most this value.
   /// - Precision::working: the coordinates are rounded, and the floor is λ·ulp(L)/mean_force. L is the side of the
-  ///   cell, and ulp(L) = 2⁻⁵² L. λ is an estimate of the largest eigenvalue of the Hessian: twice the largest sum Σ_c
-  ///   ½ |∇V|² of any particle, over the contacts c of this particle.
-  /// - Precision::double_double: the values of the contacts have rounding errors, and the floor is b·max Σ_c ρ_c
+  ///   cell, and ulp(L) = 2⁻⁵² L. λ is an estimate of the largest eigenvalue of the Hessian: twice the
+  ///   largest value that Σ_c ½ |∇V|² has for any particle, where c are the contacts of the particle.
+  /// - Precision::double_double: V and S of the contacts have rounding errors, and the floor is b·max Σ_c ρ_c
   ///   |F_c|/mean_force. The sum is over the contacts c of a particle, and the maximum over all particles. The factor b
   ///   is the largest ratio of circumradius to radius of gyration, because the circumradius is the longest lever arm of
   ///   a force. ρ_c = τ/max(d, V/|S|) + τ/√|S| is the relative error of the volume V and the vector area S of a
@@ -54,10 +55,10 @@ double deviator_of(const Evaluation& evaluation);
 /// little, for some incipient contacts.
 struct SecondOrder {
   /// Hessian ∂²E/∂r². The coordinates r are (x, R·θ) for each particle, as in Evaluation::gradient, followed by the
-  /// coordinates ℓ·ε of the free strains.
+  /// coordinates ℓ·ε of the free strains, with ℓ = strain_length() (cell/control.hpp).
   BlockMatrix hessian;
   /// Pairs that touch, and pairs that would touch if their centres were closer by the probe distance. They are sorted
-  /// by (a, b, shift).
+  /// by (a, b, shift), see NeighbourPair.
   std::vector<IncipientContact> pairs;
 };
 
@@ -81,8 +82,8 @@ struct ContactTerms {
 };
 
 /// Computes energies, forces, Hessians and contacts of packings. An object contains only caches, such as a neighbour
-/// list. The result for a packing therefore does not depend on earlier evaluations. It also has the same bits for any
-/// number of threads.
+/// list, and counters. The result for a packing therefore does not depend on earlier evaluations. It also has the same
+/// bits for any number of threads.
 class PackingEnergy {
  public:
   /// Computes the energy and its first derivatives. Throws std::invalid_argument if the cell is not legal for the
@@ -91,18 +92,18 @@ class PackingEnergy {
   /// both precisions, sums over contacts are computed in double.
   Evaluation evaluate(const Packing& packing, Precision precision = Precision::working);
   /// Computes the Hessian from analytic formulae, and the incipient contacts for a probe distance (V_p^(1/3)). If the
-  /// probe distance is 0, the incipient contacts are all pairs that touch. The free strains of `cell` form the border
-  /// of the Hessian.
+  /// probe distance is 0, the incipient contacts are all pairs that touch. The last rows and columns of the Hessian
+  /// belong to the free strains of `cell`.
   SecondOrder second_order(const Packing& packing, double probe_distance, Precision precision = Precision::working,
                            CellFreedom cell = CellFreedom::fixed);
   /// Computes only the Hessian of second_order(), without strains.
   BlockMatrix hessian(const Packing& packing, Precision precision = Precision::working);
-  /// Finds all contacts, sorted by (a, b, shift). The default is Precision::double_double, because Precision::working
-  /// does not resolve the force of face-face contacts near jamming.
+  /// Finds all contacts, sorted by (a, b, shift), see NeighbourPair. The default is Precision::double_double, because
+  /// Precision::working does not resolve the force of face-face contacts near jamming.
   std::vector<Contact> contacts(const Packing& packing, Precision precision = Precision::double_double);
 
-  long evaluations() const { return evaluations_; }     ///< number of evaluations that this object has made
-  const PairCounts& counts() const { return totals_; }  ///< sums over all evaluations of this object
+  long evaluations() const { return evaluations_; }     ///< number of calls of evaluate()
+  const PairCounts& counts() const { return totals_; }  ///< sums over all pair loops of this object
 
  private:
   void overlap_all(const Packing& packing, Precision precision);

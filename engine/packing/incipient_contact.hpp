@@ -8,7 +8,8 @@
 namespace isojam {
 
 /// Overlap volume V of a pair of particles a and b as a linear function of a step of the packing. packing.hpp defines a
-/// step: s_a and s_b are its entries for a and b, and s_ε are its last entries, the free strains times ℓ.
+/// step: s_a and s_b are its entries for a and b, and s_ε are its last entries, the coordinates ℓ·ε of the free strains
+/// with ℓ = strain_length() (cell/control.hpp).
 ///   V ≈ at_rest + slope_a·s_a + slope_b·s_b + slope_strains·s_ε
 /// V is in units of V_p, and slopes are in units of V_p^(2/3).
 struct LinearisedOverlap {
@@ -30,20 +31,21 @@ struct LinearisedOverlap {
 /// linearised twice: in the present state, and in the closed state. The closed state is the present state with the
 /// centre of b closer to the centre of a by the probe distance. The present tangent alone is not sufficient. It is 0 if
 /// the pair has a gap. Its slope is much too small if a vertex touches a face and the next step makes two faces
-/// coplanar. Both tangents are lower bounds of V, because V of a flat contact is a convex function of the step. A flat
-/// contact is a contact of two faces that are almost coplanar.
+/// coplanar. For a flat contact, a contact of two faces that are almost coplanar, both tangents are lower bounds of V
+/// if only the depth and the tilt change, because V is then convex. Sliding changes V little, because the depth is
+/// small.
 struct IncipientContact {
   int a = 0, b = 0;       ///< indices of the particles
   LinearisedOverlap now;  ///< tangent in the present state; zero if the pair does not touch
   /// Tangent in the closed state, as a function of a step from the present state. If the pair has a gap, `at_rest` is
-  /// negative. The tangent is zero if the pair does not touch in the closed state.
+  /// negative. The tangent is zero if the pair does not touch in the closed state, or if the probe distance is 0.
   LinearisedOverlap closed;
-  /// Stiffness matrix against relative_rotation(), in units of Y·V_p^(1/3). It is that of a flat contact whose two face
-  /// planes intersect in a line through the centre of the contact. The stiffness is |S|³/(50 R_a R_b) for all axes in
-  /// the plane of the faces, and 0 for the normal of this plane. S is the larger vector area of the present and the
-  /// closed state. The matrix is computed for every pair, but a pair has this stiffness only if the line crosses the
-  /// faces. Otherwise V is linear in such a rotation, and the Hessian of the present state does not contain the
-  /// stiffness.
+  /// Estimated stiffness matrix for the coordinates relative_rotation(), in units of Y·V_p^(1/3). It assumes a flat
+  /// contact whose two face planes intersect in a line through the centre of the contact. The estimate is |S|³/(50 R_a
+  /// R_b) for all axes in the plane of the faces, and 0 for the normal of this plane. S is the larger vector area of
+  /// the present and the closed state. The matrix is computed for every pair, but a pair has this stiffness only if the
+  /// line crosses the faces. If the line does not cross the faces in the present state, V is linear in such a rotation,
+  /// and the Hessian does not contain the stiffness. The line may cross the faces after the step.
   Eigen::Matrix3d tilt = Eigen::Matrix3d::Zero();
   /// √(R_a R_b)/R_a and √(R_a R_b)/R_b, where R_a and R_b are the radii of gyration
   double rotation_scale_a = 1, rotation_scale_b = 1;
@@ -59,8 +61,8 @@ struct GyrationRadii {
   double a, b;  ///< radius of the particle
 };
 
-/// Computes the tangent of V in the state of the overlap, without slope_strains. Vectors of `overlap` must be in the
-/// lab frame, and r is the displacement x_b − x_a of this state.
+/// Computes the tangent of V in the state for which `overlap` was computed, without slope_strains. Vectors of `overlap`
+/// must be in the lab frame, and r is the displacement x_b − x_a of this state.
 LinearisedOverlap tangent(const Overlap& overlap, const Eigen::Vector3d& r, const GyrationRadii& radii);
 
 /// Makes the IncipientContact of a pair. `now` is the overlap in the present state, where the displacement x_b − x_a is

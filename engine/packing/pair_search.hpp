@@ -9,7 +9,7 @@
 namespace isojam {
 
 /// Finds the elements of a list that belong to given pairs. The list must be sorted by canonical_key(). Successive
-/// calls of find() must request pairs in the same order, so that all calls together pass over the list only once.
+/// calls of find() must request pairs in ascending order, so that all calls together pass over the list only once.
 /// `pair_of` gives the pair of an element. By default, the element itself is the pair.
 template <class Element, class PairOf = std::identity>
 class PairSearch {

@@ -28,7 +28,7 @@ struct PairStiffness {
   Vector12d normal;             ///< unit vector g/|g| of the normal
   double normal_stiffness = 0;  ///< stiffness ½ |g|² of the normal, in units of Y·V_p^(1/3)
   double force = 0;             ///< contact force f = V|S|/2, in units of Y·V_p^(2/3)
-  double length = 0;            ///< length R in s_k: the mean of R_A and R_B, in units of V_p^(1/3)
+  double length = 0;            ///< length R in relative_tilt(): the mean of R_A and R_B, in units of V_p^(1/3)
   Matrix12d second;             ///< the second term, ½ V W
   /// The tilts, as columns: orthonormal relative motions of the pair that are perpendicular to the normal. The second
   /// term is diagonal in this basis. The tilts are sorted by descending stiffness κ_k.
@@ -49,8 +49,8 @@ struct PairStiffness {
 };
 
 /// Computes the stiffness of every contact, in the order of `contacts`, in double-double. For flat contacts near
-/// jamming, the second term is only 1e-16 of the first term. It is therefore computed by itself, and not as a
-/// difference.
+/// jamming, the second term can be as small as 1e-16 of the first term. It is therefore computed by itself, and not as
+/// a difference.
 std::vector<PairStiffness> pair_stiffnesses(const Packing& packing, std::span<const Contact> contacts);
 
 /// Constraint number from stiffness, without a cut-off angle: C_s = (2/N) Σ_c [1 + #{k: s_k > threshold}]. The

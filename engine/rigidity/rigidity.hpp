@@ -28,12 +28,12 @@ struct Rigidity {
 /// Options of analyse_rigidity().
 struct RigidityOptions {
   bool stresses = false;  ///< true to compute a basis of the states of self-stress
-  /// The tolerance divided by the relative force residual (see RigidityMatrix). Reason: in a nearby state whose
-  /// forces balance, the contact forces are a state of self-stress. In the present state, the corresponding singular
-  /// value is of the order of the relative force residual, or smaller.
+  /// Ratio of the tolerance to the relative force residual (see RigidityMatrix), unless rounding errors require a
+  /// larger tolerance. Reason: in a nearby state whose forces balance, the contact forces are a state of self-stress.
+  /// In the present state, the corresponding singular value is of the order of the relative force residual, or smaller.
   double margin = 100;
   /// Largest relative force residual for which the tolerance depends on `margin`. The relative force residual of an
-  /// equilibrium is at most a tenth of this value.
+  /// equilibrium is below this value if MinimiseOptions::residual has its default.
   double balanced = 1e-6;
 };
 

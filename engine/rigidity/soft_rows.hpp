@@ -8,9 +8,10 @@
 
 namespace isojam {
 
-/// Inverse iteration with rows·rowsᵀ, which finds the combinations of constraints with the smallest singular values. It
-/// uses a sparse factorisation of rowsᵀrows + τ² in 6×6 blocks, one block row per particle. For N = 400 this takes
-/// milliseconds; a dense factorisation would take half a minute.
+/// Inverse iteration with rows·rowsᵀ, where `rows` is RigidityMatrix::rows. It finds the combinations of constraints
+/// with the smallest singular values. It uses a sparse factorisation of rowsᵀrows + τ²·1 in 6×6 blocks, one block row
+/// per particle; damped() defines τ. For N = 400 this takes milliseconds; a dense factorisation would take half a
+/// minute.
 class SoftRows {
  public:
   /// Stores a reference to `rows`, constraints × 6N, which must outlive this object. Throws std::invalid_argument if

@@ -43,7 +43,9 @@ struct ShearOptions {
   double step = 1e-3;
   double until = 0.02;       ///< final value of γ; with stress control, final value of s/p₀
   bool back = false;         ///< true: from `until`, γ or s/p₀ goes back to 0 in the same steps
-  MinimiseOptions minimise;  ///< options of the minimisations
+  /// Options of the minimisations, with the default `control`. The method of multipliers follows each step for any
+  /// value of `method`.
+  MinimiseOptions minimise;
 };
 
 /// An equilibrium under shear. Energies are in units of Y·V_p, stress and pressure in Y.

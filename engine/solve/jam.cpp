@@ -293,7 +293,10 @@ class StrainStep {
   /// this step. Half the fraction alone might give the same step again, which would fail again with the same bits.
   void failed(bool first) {
     if (first || ++progress_.halvings > max_halvings) return end_expansion(JamStatus::goal_not_reached);
-    progress_.step_fraction = std::min(progress_.step_fraction, step_bound() / distance()) / 2;
+    // As in expansion_step(), a bound that is not positive does not count.
+    if (const double bound = step_bound(); bound > 0)
+      progress_.step_fraction = std::min(progress_.step_fraction, bound / distance());
+    progress_.step_fraction /= 2;
   }
 
   void end_expansion(JamStatus status) { result_.status = result_.states.size() >= 2 ? status : JamStatus::not_jammed; }

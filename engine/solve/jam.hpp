@@ -19,8 +19,8 @@ namespace isojam {
 enum class Consolidation {
   /// Relaxed compression: L-BFGS relaxes each state with at most Compression::evaluations evaluations.
   relaxed,
-  /// Hasty compression: L-BFGS relaxes each state with at most 50 evaluations. φ_J of tetrahedra then agrees with the
-  /// paper.
+  /// Hasty compression: L-BFGS relaxes each state with at most 50 evaluations. For tetrahedra with N = 64, the paper's
+  /// φ_J is then within the confidence interval (docs/protocol.md).
   hasty
 };
 template <>
@@ -46,9 +46,9 @@ inline constexpr std::array enum_names<CellShape>{EnumName{CellShape::isotropic,
 /// followed by a minimisation, until the target energy is reached. Energies are in units of Y·V_p.
 struct Compression {
   double initial_density = 0.05;  ///< density φ of the random packing
-  /// Increase of φ in a strain step. In a test with 16 packings of 100 particles, steps of 0.005, 0.01 and 0.02 gave
-  /// the same φ_J with similar standard deviations. The default is the longest of these steps, because compression then
-  /// costs least.
+  /// Increase of φ in a strain step. In a test with 16 packings of 100 octahedra, icosahedra or dodecahedra, steps of
+  /// 0.005, 0.01 and 0.02 gave the same φ_J within the confidence intervals. The default is the longest of these steps,
+  /// because compression then costs least.
   double step = 0.02;
   double target_energy = 3.2e-5;  ///< target energy per particle E/N; the value of the paper
   /// The paper's target energy can be interpreted in two ways:
@@ -63,11 +63,13 @@ struct Compression {
   /// energy.
   double max_density = 0.93;
   /// L-BFGS ends the relaxation of a state when the residual is at most this value, when E/N is below unjammed_energy,
-  /// or after `evaluations` evaluations. Decompression begins with a minimisation of the last state to an equilibrium.
+  /// when minimise.energy_change ends it, or after `evaluations` evaluations. Decompression begins with a minimisation
+  /// of the last state to an equilibrium.
   double residual = 1e-3;
-  double unjammed_energy = 1e-14;  ///< E/N below which a state counts as unjammed
-  /// Largest number of evaluations for a state. Four times as many give the same mean φ_J of octahedra, icosahedra and
-  /// dodecahedra, but not of tetrahedra, for which 2000 are recommended (docs/protocol.md).
+  double unjammed_energy = 1e-14;  ///< E/N below which a state that is not yet relaxed counts as unjammed
+  /// Largest number of evaluations for a state. For none of the paper's four solids does φ_J with 2000 evaluations
+  /// differ significantly from φ_J with 500. For tetrahedra, 2000 are recommended, because 8000 evaluations increase
+  /// φ_J by 0.005 ± 0.005 (docs/protocol.md).
   int evaluations = 500;
   Consolidation relaxation = Consolidation::relaxed;  ///< relaxation of the states
 };
@@ -75,14 +77,14 @@ struct Compression {
 /// Options of decompression, the second stage: steps to lower densities, or to lower pressures, towards φ_J.
 struct Decompression {
   /// Length of a step as a fraction of φ − φ_J, which is estimated from the last state. A step is shorter if it would
-  /// otherwise exceed longest_step or end below 0.95·final_distance. A step fails if it finds no equilibrium. After a
-  /// failed step, the next step is half as long. Each successful step increases the fraction by a factor of 1.5, up to
-  /// this value.
+  /// otherwise exceed longest_step, or end at φ − φ_J < 0.95·final_distance. A step fails if it finds no equilibrium.
+  /// After a failed step, the next step is half as long. Each successful step increases the fraction by a factor of
+  /// 1.5, up to this value.
   double step_fraction = 0.35;
   double longest_step = 0.05;  ///< largest decrease of φ in a step
   /// A step that contains a rearrangement (is_rearranged() in rearrangement.hpp) is repeated at half its length, until
   /// the step is shorter than this fraction of φ − φ_J. The density of the rearrangement is then known with this
-  /// resolution. 0: steps are not repeated.
+  /// resolution. With 0, no step is repeated for this reason.
   double event_resolution = 0;
   double final_distance = 0.004;  ///< decompression ends when φ − φ_J falls below this
   double fit_window = 0.02;       ///< states with φ − φ_J below this are used to fit φ_J
@@ -92,12 +94,12 @@ struct Decompression {
   Control control = Control::density;
 };
 
-/// Options of the protocol of Smith, Fisher, Alam 2011 (and 2010): compression, then decompression towards φ_J. The
-/// keys of manifests and records call these stages consolidation and expansion.
+/// Options of the protocol of Smith, Fisher, Alam 2011 (arXiv:1104.4933): compression, then decompression towards φ_J.
+/// The keys of manifests and records call these stages consolidation and expansion.
 struct JamOptions {
   Compression compression;                ///< options of the first stage
   Decompression decompression;            ///< options of the second stage
-  int max_steps = 400;                    ///< largest number of strain steps of both stages together
+  int max_steps = 400;                    ///< largest number of entries of `path`, both stages together
   CellShape cell = CellShape::isotropic;  ///< relaxation of the shape of the cell
   /// Options of the minimisations. In compression, the method is always L-BFGS, and Compression::evaluations replaces
   /// max_evaluations. `residual` and `unjammed_energy` are also members of Compression; compression uses the larger
@@ -139,8 +141,9 @@ struct JamStep {
   double pressure = 0;                       ///< pressure p
   double deviator = 0;                       ///< deviation from hydrostatic stress, see deviator_of()
   MinimiseSummary summary;                   ///< result of the minimisation of the state
-  int descents = 0;  ///< number of saddles that were relaxed along a negative mode before this state was reached
-  /// difference from the state before; nullopt in compression and at the beginning of a solution branch
+  int descents = 0;  ///< number of saddles that settle() relaxed to reach this state; jam() leaves it 0
+  /// difference from the state before; nullopt in compression, at the beginning of a solution branch, and for a step
+  /// that failed or was repeated, or in which a branch ended
   std::optional<Rearrangement> rearrangement;
   /// True if the solution branch ended in this step of the decompression. Either the packing is unjammed, or this step
   /// and the step before it, which was twice as long, both ended with StopReason::budget.
@@ -152,7 +155,7 @@ enum class JamStatus {
   not_called,
   jammed,            ///< states were found down to final_distance, and φ_J was fitted
   goal_not_reached,  ///< φ_J was fitted, but decompression ended before final_distance
-  not_jammed,        ///< fewer than two states of the decompression were found
+  not_jammed,        ///< the last solution branch has fewer than two states
   density_limit,     ///< compression reached max_density before the target energy
   step_limit,        ///< max_steps was reached
   cell_limit,        ///< the cell became so small or skew that a particle could touch two images of another particle

@@ -13,8 +13,8 @@ struct EnergyPoint {
   double slope = 0;                ///< dE/dφ per particle = p/φ², in units of Y·V_p
 };
 
-/// Jamming density φ_J from a linear fit. Near jamming E ∝ Δφ⁶, so (E/N)^(1/6) is linear in φ and vanishes at φ_J
-/// (Smith, Fisher, Alam 2011, Table I).
+/// Jamming density φ_J: the intercept of a line for φ as a function of (E/N)^(1/6). Near jamming E ∝ Δφ⁶, so
+/// (E/N)^(1/6) is linear in φ and vanishes at φ_J (Smith, Fisher, Alam 2011, Table I).
 struct JammingPoint {
   double density = 0;         ///< φ_J
   double standard_error = 0;  ///< standard error of φ_J in the fit; 0 if only two states are fitted

@@ -39,7 +39,8 @@ struct LanczosRequest {
   /// If there is a shift σ, the operation is (A − σ)⁻¹, and the eigenvalues of A nearest to σ are computed. Otherwise
   /// the operation is A.
   std::optional<double> shift = std::nullopt;
-  double tolerance = 1e-10;  ///< relative accuracy of an eigenvalue, or of 1/(λ − σ) if there is a shift
+  /// largest residual of an eigenpair of the operation, divided by |λ|, or by 1/|λ − σ| if there is a shift
+  double tolerance = 1e-10;
   int restarts = 300;
   Eigen::VectorXd start{};  ///< start vector with rows() entries; if it is empty, Spectra makes a random vector
 };

@@ -38,7 +38,8 @@ struct MinimumSearchOptions {
   /// step is halved until the energy decreases.
   double first_step = 0.1;
   MinimiseOptions minimise;  ///< options of all minimisations
-  /// options for the modes: of the lowest modes, only the first is used; the highest mode gives λ_max for the tolerance
+  /// Options for the modes. Only the first of the lowest modes gives a direction; the others help to find
+  /// near-rattlers. The highest mode gives λ_max for the tolerance.
   ModeOptions modes{.highest = 1};
 };
 

@@ -12,7 +12,7 @@ namespace isojam {
 /// Method that found a set of modes.
 enum class ModeEnd {
   not_called,
-  converged,  ///< the Lanczos method converged at the first attempt
+  converged,  ///< the Lanczos method converged at the first attempt, or dense_modes() converged
   /// the Lanczos method converged at the second attempt, with a larger subspace and, for lowest modes, another shift
   retried,
   /// a dense solver found the modes, because the Lanczos method did not converge or too many modes were requested
@@ -73,7 +73,8 @@ struct ModeOptions {
 /// computed again in three cases: the method does not converge, the residual shows that the factorisation was
 /// inaccurate, or modes below the shift are missing. The number of modes below the shift follows from Sylvester's law
 /// of inertia. The second attempt uses a larger subspace and a shift below the whole spectrum. The third attempt uses
-/// the dense solver, for at most `largest_dense` particles. Never throws.
+/// the dense solver, for at most `largest_dense` particles. If a
+/// numerical method fails, ModeSet::ended reports it, and nothing is thrown.
 SpectrumEnds spectrum_ends(const BlockMatrix& matrix, const ModeOptions& options = {});
 
 /// Computes all 6N − 3 modes with the dense solver, in a time of O(N³) and with a memory of O(N²).

@@ -61,7 +61,8 @@ struct Stability {
 /// on the parametrisation of small rotations.
 double zero_tolerance(const BlockMatrix& matrix, double lambda_max, double unbalanced_torque = 0);
 
-/// The largest |T_i|/R² of all particles i, where T_i is the net torque: the second term of zero_tolerance().
+/// The largest |T_i|/R² of all particles i, where T_i is the net torque. It is the second term of zero_tolerance() for
+/// the Hessian. For D, it must be multiplied by greatest_inverse_mass().
 double unbalanced_torque(const Evaluation& evaluation, const Composition& solids);
 
 /// Counts the modes of D: eigenvalues below −tolerance are negative, eigenvalues above +tolerance are positive, and all

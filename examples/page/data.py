@@ -9,13 +9,20 @@ import math
 
 from estimates import estimate_of, of_choices
 from scaling import at, binned, jamming_density, slopes
-from troughs import from_bins
 
 SOLIDS = ("tetrahedron", "octahedron", "icosahedron", "dodecahedron")
 PLURALS = {solid: solid.replace("hedron", "hedra") for solid in SOLIDS}
 PROTOCOL = "paper-protocol"  # the study whose replicates have other compression protocols
-BASE = {"target_before_relaxation": False, "consolidation_step": 0.02, "consolidation_evaluations": 2000}
+# Studies of one question each. Means over Platonic solids do not use them.
+NEGATIVE, SOLIDS_64, LARGE = "paper-negative", "rigidity-solids", "paper-4000"
+APART = (PROTOCOL, NEGATIVE, SOLIDS_64, LARGE)
 CHOICES = (1, 2, 4)  # factors of the fit window of φ_J, whose effect is the systematic error of exponents
+
+
+def base_of(solid):
+    """Compression protocol of the main studies, which is the default of isojam."""
+    return {"target_before_relaxation": False, "consolidation_step": 0.02,
+            "consolidation_evaluations": 2000 if solid == "tetrahedron" else 500}
 
 
 def each(states, names, function):
@@ -75,10 +82,17 @@ class Data:
                     r["states"] |= derived(r["states"], r["particles"])
 
     def main(self):
-        return [study for name, study in self.studies.items() if name != PROTOCOL]
+        return [study for name, study in self.studies.items() if name not in APART]
 
-    def sizes_without_troughs(self):
-        return {r["particles"] for study in self.main() if "troughs" not in study for r in study["replicates"]}
+    def kept_of(self, name, solid):
+        """Replicates of one study that means use."""
+        study = self.studies.get(name, {"replicates": (), "exclude": ()})
+        return [r for r in study["replicates"] if r["solid"] == solid and r["status"] == "done"
+                and not set(study["exclude"]) & set(r["flags"])]
+
+    def nearest_of(self, name, solid, column):
+        """Estimate over the states nearest jamming of one study."""
+        return estimate_of([r["states"][column][-1] for r in self.kept_of(name, solid) if column in r["states"]])
 
     def all_of(self, solid, particles):
         return [r for study in self.main() for r in study["replicates"]
@@ -135,14 +149,13 @@ class Data:
 
     @functools.cache
     def trough(self, solid, particles, distance=None):
-        """Troughs in the angles of all replicates together, at a distance or nearest jamming: from `isojam aggregate`,
-        or from bins of the angles in data of version 0.1.0. None if there are no angles."""
+        """Troughs of `isojam aggregate` in the angles of all replicates together, at a distance or nearest jamming; None if
+        there are no angles."""
         for study in self.main():
             for entry in study.get("troughs", ()):
                 if (entry["solid"], entry["particles"], entry["delta_phi"]) == (solid, particles, distance):
                     return entry
-        with_bins = [r for r in self.kept(solid, particles) if "bins" in r]
-        return from_bins(with_bins) if with_bins and distance is None else None
+        return None
 
     def trough_distances(self, solid, particles):
         return sorted({entry["delta_phi"] for study in self.main() for entry in study.get("troughs", ())
@@ -175,13 +188,12 @@ class Data:
         def place(r):
             return r["solid"], r["replicate"]
 
-        study = self.studies.get(PROTOCOL, {"replicates": (), "exclude": ()})
-        usable = [r for r in study["replicates"] if r["solid"] == solid and r["status"] == "done"
-                  and not set(study["exclude"]) & set(r["flags"])]
-        base = {place(r): r["phi_j"] for r in usable if r["setting"] == BASE}
+        usable = self.kept_of(PROTOCOL, solid)
+        ours = base_of(solid)
+        base = {place(r): r["phi_j"] for r in usable if r["setting"] == ours}
         pairs = {}
         for r in usable:
-            if r["setting"] != BASE and place(r) in base:
+            if r["setting"] != ours and place(r) in base:
                 pairs.setdefault(tuple(r["setting"].values()), []).append(r["phi_j"] - base[place(r)])
         return {setting: estimate_of(values) for setting, values in sorted(pairs.items()) if len(values) >= 3}
 

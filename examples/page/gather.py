@@ -3,7 +3,7 @@
 Writes FILE from the results directories RESULTS/STUDY. It has, for each replicate, flags, cost, φ_J and the
 columns that the pages need of every state. It also has the troughs in the angles of all replicates together, which
 `isojam aggregate` finds, and the histograms of these angles. For the figures it has a spectrum and the largest cluster of
-face-face contacts of each solid. Numbers are rounded as in records.py. Incomplete studies
+face-face contacts of each solid, and the structure factor S(k) of packings with N ≥ 400. Numbers are rounded as in records.py. Incomplete studies
 count with the replicates that they have.
 """
 
@@ -15,6 +15,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+import numpy
+
+from data import LARGE, NEGATIVE, SOLIDS_64
 from records import found, records_of, write
 
 # Column of a state: where it is in the record.
@@ -37,7 +40,7 @@ COLUMNS = {
     "backbone_missing": "backbone/classes/missing", "backbone_constraints": "backbone/classes/constraints",
     "backbone_rank": "backbone/classes/rank",
     **{f"unstable_{name}": f"difference_modes/{name}/share" for name in ("exact", "h4", "h6", "h8")},
-    "held_by_second": "prestress/modes/held_by_second",
+    "held_by_second": "prestress/modes/held_by_second", "C_s": "prestress/C_s",
     **{f"prestress_{t}": f"prestress/modes/prestress_by_threshold/{i}/modes" for i, t in ((1, 3), (2, 10), (3, 30))},
     **{f"{key}_{name}": f"prestress/by_class/{i}/{full}" for i, name in enumerate(("ff", "ef", "l"))
        for key, full in (("contacts", "contacts"), ("tilts", "stiff_tilts"))}}
@@ -47,6 +50,8 @@ VARIED = ("target_before_relaxation", "consolidation_step", "consolidation_evalu
 HISTOGRAMS_AT = (0.0025, 0.001)  # Δφ of histograms beside those of the tables
 SPECTRUM_AT = 0.01  # Δφ of the spectra, the same for all solids
 BALANCED = 1e-3  # largest residual of a backbone whose ranks are used: the removed particles carry no force
+STRUCTURE_FROM, SHELLS = 400, 40  # smallest N, and largest n² of the wave vectors 2π n/L, of structure factors
+NEAREST_ONLY = (LARGE, NEGATIVE, SOLIDS_64)  # studies of which pages use only the states nearest jamming
 NEAR = 1.25  # factor between two values of Δφ that count as the same
 
 
@@ -97,7 +102,7 @@ def columns_of(states, particles):
     return {name: values for name, values in columns.items() if any(value is not None for value in values)}
 
 
-def replicate_of(record, varied):
+def replicate_of(record, varied, nearest_only):
     """Row of a replicate. If the study varies parameters of the protocol, it has these instead of the states."""
     spec = record["spec"]
     made = {"solid": spec["solid"], "particles": spec["particles"], "replicate": spec["replicate"],
@@ -108,7 +113,8 @@ def replicate_of(record, varied):
     if record["status"] != "done":
         return made
     made |= {"phi_j": record["phi_j"]["phi_j"], "fit_window": spec["protocol"]["fit_window"]}
-    return made if varied else {**made, "states": columns_of(record["states"], spec["particles"])}
+    states = record["states"][-1:] if nearest_only else record["states"]
+    return made if varied else {**made, "states": columns_of(states, spec["particles"])}
 
 
 def histogram(bins_of_states, kind, below=None):
@@ -230,13 +236,32 @@ def cluster_of(isojam, directory, records):
             "particles": [[*where, *packing["orientations"][i]] for i, where in cluster.items()]}
 
 
+def structure_of(directory, names):
+    """Structure factor S(k) = |Σ exp(−ik·x)|²/N of the centres: for each shell of wave vectors with the same length, k (mean
+    over the packings), S of each packing, and the number of independent wave vectors."""
+    grid = numpy.stack(numpy.meshgrid(*3 * [numpy.arange(-6, 7)], indexing="ij"), axis=-1).reshape(-1, 3)
+    square = (grid ** 2).sum(axis=1)
+    positive = grid @ (169, 13, 1) > 0  # one of each pair k, −k
+    shells = {}
+    for name in names:
+        packing = json.loads((directory / "packings" / f"{name}.json").read_text(encoding="utf-8"))
+        positions = numpy.array(packing["positions"]) / packing["side"]
+        for shell in sorted(set(square[(square > 0) & (square <= SHELLS)])):
+            waves = grid[(square == shell) & positive]
+            amplitudes = numpy.exp(-2j * math.pi * positions @ waves.T).sum(axis=0)
+            made = shells.setdefault(int(shell), {"k": [], "S": [], "vectors": len(waves)})
+            made["k"].append(2 * math.pi * math.sqrt(shell) / packing["side"])
+            made["S"].append(float((abs(amplitudes) ** 2).mean() / len(positions)))
+    return [{**one, "k": sum(one["k"]) / len(one["k"])} for _, one in sorted(shells.items())]
+
+
 def study_of(isojam, directory):
     tables = tables_of(isojam, directory)
     named = list(records_of(directory))
     records = [record for _, record in named]
     varied = [key for key in VARIED if key in tables["rows"][0]["parameters"]]
     made = {"git": sorted({r["provenance"]["git"] for r in records}), "exclude": tables["exclude"],
-            "critical_angles": {}, "spectra": {}, "clusters": {}, "troughs": []}
+            "critical_angles": {}, "spectra": {}, "clusters": {}, "structure": {}, "troughs": []}
     for row in [] if varied else tables["rows"]:
         kept = [r for r in records if r["status"] == "done" and not set(tables["exclude"]) & set(r.get("flags") or ())
                 and (r["spec"]["solid"], r["spec"]["particles"]) == (row["solid"], row["particles"])]
@@ -245,11 +270,15 @@ def study_of(isojam, directory):
         spectra = [spectrum for spectrum in map(spectrum_of, kept) if spectrum]
         if spectra:
             made["spectra"][f"{row['solid']} {row['particles']}"] = spectra[0]
-        cluster = cluster_of(isojam, directory, [(name, r) for name, r in named if any(r is one for one in kept)])
+        of_row = [(name, r) for name, r in named if any(r is one for one in kept)]
+        if row["particles"] >= STRUCTURE_FROM and kept and directory.name != NEGATIVE:
+            made["structure"][f"{row['solid']} {row['particles']}"] = structure_of(directory, [name for name, _ in of_row])
+        cluster = cluster_of(isojam, directory, of_row)
         if cluster:
             made["clusters"][f"{row['solid']} {row['particles']}"] = cluster
         made["troughs"] += troughs_of(row, kept)
-    return {**made, "replicates": [replicate_of(record, varied) for record in records]}
+    nearest_only = directory.name in NEAREST_ONLY
+    return {**made, "replicates": [replicate_of(record, varied, nearest_only) for record in records]}
 
 
 def main():

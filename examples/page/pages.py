@@ -39,7 +39,8 @@ def tables_page(study, data):
     parts = [f"# {study.TITLE}: all tables\n\nA script makes this page from the data in `data/`. "
              "[The main page](README.md) explains the study.\n\n" + " ".join(study.ENTRIES.split())]
     for title, introduction, make in study.TABLES:
-        parts.append(f"## {title}\n\n{' '.join(introduction.split())}\n\n{make(data)}")
+        paragraphs = "\n\n".join(" ".join(part.split()) for part in introduction.split("\n\n"))
+        parts.append(f"## {title}\n\n{paragraphs}\n\n{make(data)}")
     return "\n\n".join(part.rstrip("\n") for part in parts) + "\n"
 
 
@@ -106,7 +107,7 @@ def main(study, folder):
     arguments.out.mkdir(parents=True, exist_ok=True)
     elsewhere = arguments.out.resolve() != folder.resolve() and not arguments.summary
     if elsewhere:
-        for image in re.findall(r"\]\((\w+\.(?:svg|png|pdf))\)", page):
+        for image in re.findall(r"\]\((\w+\.(?:svg|png|pdf))\)", "\n".join(made.values())):
             if not (arguments.out / image).exists():
                 shutil.copy(folder / image, arguments.out)
     for path, text in made.items():

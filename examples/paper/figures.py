@@ -13,6 +13,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: E402
 from data import SOLIDS, Data  # noqa: E402
 from drawing import COLOURS, GRID, MARKERS, SETTINGS, WIDTH, curve, letter, mean_path, save, solid_legend  # noqa: E402
 from comparison import DICE_DENSITY, drawn_size, figures_of  # noqa: E402
+from tables import structure  # noqa: E402
 
 
 def densities(data, out):
@@ -176,11 +177,28 @@ def clusters(data, out):
     save(figure, out / "clusters")
 
 
+def fluctuations(data, out):
+    """Structure factors of packings with N = 400, and of octahedra with N = 400 and 4000."""
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(WIDTH, 2.9), sharey=True, layout="constrained")
+    for axes, solid, particles, filled in (*((left, s, 400, True) for s in SOLIDS), (right, "octahedron", 400, True),
+                                           (right, "octahedron", 4000, False)):
+        shells = structure(data, solid, particles)
+        axes.errorbar([k for k, _ in shells], [e["mean"] for _, e in shells], [e["half_width"] for _, e in shells],
+                      color=COLOURS[solid], marker=MARKERS[solid], markerfacecolor=None if filled else "white",
+                      elinewidth=0.8, linestyle="none", label=solid if axes is left else f"N = {particles}")
+    for axes, name in ((left, "a"), (right, "b")):
+        axes.set(yscale="log", xlabel="k  (V$_p^{-1/3}$)", xlim=(0, 4.6))
+        axes.legend(loc="upper left")
+        letter(axes, name)
+    left.set_ylabel("structure factor S(k)")
+    save(figure, out / "structure")
+
+
 def main():
     out, data = Path(sys.argv[1]), Data(*sys.argv[2:])
     out.mkdir(parents=True, exist_ok=True)
     with matplotlib.rc_context(SETTINGS):
-        for draw in (densities, constraints, vibrations, clusters):
+        for draw in (densities, constraints, vibrations, clusters, fluctuations):
             draw(data, out)
 
 

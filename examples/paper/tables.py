@@ -4,8 +4,8 @@ import functools
 import statistics
 
 from comparison import (DICE, DICE_DENSITY, STABLE_FROM, drawn_size, figures_of, offset, region_two, uncertainty, within)
-from data import SOLIDS
-from estimates import difference_of
+from data import LARGE, NEGATIVE, SOLIDS, base_of
+from estimates import NORMAL, difference_of, estimate_of
 from limits import limit
 from text import counted, interval, number, significant, signed, spread, table
 
@@ -80,10 +80,10 @@ def protocols(data):
     rows = []
     for setting in sorted({s for found in shifts.values() for s in found}):
         before, step, budget = setting
-        cells = [found.get(setting) for found in shifts.values()]
-        rows.append(["before" if before else "after", number(step, 3), str(budget),
-                     *(counted({**e, "mean": 1e4 * e["mean"], "half_width": 1e4 * e["half_width"]}) if e else "–"
-                       for e in cells)])
+        cells = ["ours" if setting == tuple(base_of(solid).values()) else
+                 counted({**e, "mean": 1e4 * e["mean"], "half_width": 1e4 * e["half_width"]}) if
+                 (e := shifts[solid].get(setting)) else "–" for solid in SOLIDS]
+        rows.append(["before" if before else "after", number(step, 3), str(budget), *cells])
     return table(["energy", "step", "evaluations", *SOLIDS], rows)
 
 
@@ -167,16 +167,23 @@ def minima(data):
                   "with near-rattlers", "minima of all states, all particles"], rows)
 
 
+def percent(estimate):
+    return counted(estimate and {**estimate, "mean": 100 * estimate["mean"],
+                                 "half_width": estimate["half_width"] and 100 * estimate["half_width"]})
+
+
 def unstable(data):
-    names = ("exact", "h8", "h6", "h4")
+    names = [f"unstable_{name}" for name in ("exact", "h8", "h6", "h4")]
     rows = []
     for solid in SOLIDS:
         for distance in (0.04, 0.01, None):
-            cells = [data.at(solid, 100, f"unstable_{name}", distance) for name in names]
+            cells = [data.at(solid, 100, name, distance) for name in names]
             if any(cells):
-                rows.append([solid, str(distance or "nearest"), *(counted(e and {
-                    **e, "mean": 100 * e["mean"], "half_width": 100 * (e["half_width"] or 0)}) for e in cells)])
-    return table(["solid, N = 100", "Δφ", "analytic, %", "h = 10⁻⁸, %", "h = 10⁻⁶, %", "h = 10⁻⁴, %"], rows)
+                rows.append([f"{solid} 100", str(distance or "nearest"), *map(percent, cells)])
+        cells = [data.nearest_of(NEGATIVE, solid, name) for name in names]
+        if any(cells):
+            rows.append([f"{solid} 400", "0.01", *map(percent, cells)])
+    return table(["solid, N", "Δφ", "analytic, %", "h = 10⁻⁸, %", "h = 10⁻⁶, %", "h = 10⁻⁴, %"], rows)
 
 
 def region_two_ratios(data):
@@ -195,6 +202,48 @@ def uniformity(data):
     rows = [[f"{solid} {drawn_size(data)}", f"1° … {number(critical, 1)}°", interval(ratio)]
             for solid, critical, ratio in region_two_ratios(data)]
     return table(["solid, N", "region 2", "density of the upper half / density of the lower half"], rows)
+
+
+def structure(data, solid, particles):
+    """[(k, estimate of S(k))] for each shell of wave vectors. If there are fewer than three packings, the interval is that of
+    an exponential distribution of |Σ exp(−ik·x)|², with all wave vectors independent."""
+    found = []
+    for study in data.studies.values():
+        for shell in study.get("structure", {}).get(f"{solid} {particles}", ()):
+            made = estimate_of(shell["S"])
+            if made["n"] < 3:
+                made["half_width"] = NORMAL * made["mean"] / math.sqrt(made["n"] * shell["vectors"])
+            found.append((shell["k"], made))
+    return found
+
+
+def fluctuations(data):
+    rows = []
+    for solid in SOLIDS:
+        for n in (400, 4000):
+            shells = structure(data, solid, n)
+            if shells:
+                near = [min(shells, key=lambda shell, k=k: abs(shell[0] - k)) for k in (1, 1.5, 2)]
+                rows.append([f"{solid} {n}", *(f"{counted(e)} at {number(k, 2)}" for k, e in (shells[0], *near))])
+    return table(["solid, N", "S at the smallest k", "S at k ≈ 1", "S at k ≈ 1.5", "S at k ≈ 2"], rows)
+
+
+def large(data):
+    kept = data.kept_of(LARGE, "octahedron")
+    if not kept:
+        return "These data lack the packing.\n"
+    r = kept[0]
+    last = {name: values[-1] for name, values in r["states"].items()}
+    n = r["particles"]
+    rows = [["φ_J", number(r["phi_j"], 4)], ["Δφ of the state", significant(last["phi"] - r["phi_j"], 2)],
+            ["residual", significant(last["residual"], 2)], ["Z", number(last["Z"], 3)],
+            ["Z_ff, Z_ef by fit", f"{number(last['Z_ff'], 3)}, {number(last['Z_ef'], 3)}"],
+            ["C by fit", number(last["C"], 3)],
+            ["C by trough", number(last["C_trough"], 3) if last.get("C_trough") else "no trough"],
+            ["rank, classes by fit", f"{6 * n - round(last['floppy'])} of 6N − 3 = {6 * n - 3}"],
+            ["S/N, classes by fit", number(last["self_stress"] / n, 3)],
+            ["CPU time, minutes", number(r["cpu"] / 60, 1)]]
+    return table(["octahedra, N = 4000", "one packing"], rows)
 
 
 def cost(data):
@@ -224,7 +273,7 @@ TABLES = (
     ("Finite-size effect of the jamming density", "The interval is that of Welch's t.", sizes),
     ("Shift of the jamming density by the compression protocol", """Paired differences of φ_J in units of 10⁻⁴ (N = 100,
      same initial configurations): the protocol of the row minus ours. Ours compares the energy after relaxation with the
-     target, and uses a strain step of 0.02 and 2000 evaluations. A dash means fewer than three pairs.""", protocols),
+     target, and uses a strain step of 0.02 and 500 evaluations (tetrahedra: 2000). A dash means fewer than three pairs.""", protocols),
     ("C by three classifications", """The second error of C by trough is its change within the trough. That of C by fit is
      half its range from half to twice the fitted cut-offs. C by gap exists only if both angles have a gap.""",
      constraints),
@@ -242,8 +291,17 @@ TABLES = (
      minima),
     ("Negative modes by central differences", """Share of negative modes of the analytic dynamical matrix, and of
      matrices from central differences of forces with the step h (V_p^(1/3)). The paper's stability analysis used central
-     differences.""", unstable),
+     differences. It found 5.3 % of unstable modes in tetrahedra at Δφ = 0.01, and less than 1.2 % in octahedra at Δφ =
+     0.01 (N = 400).""", unstable),
     ("Is region 2 of c(θ_ff) uniform?", """The paper states that θ_ff is uniform between 1° and the smallest critical
      angle. The ratio of densities would then be 1. Its interval is that of Poisson noise.""", uniformity),
+    ("Density fluctuations", """Structure factor S(k) = |Σ exp(−ik·x)|²/N of the centres x of the particles, k in
+     V_p^(−1/3), in the states nearest jamming. In a hyperuniform packing, S tends to 0 for k → 0. The interval for the
+     packing with N = 4000 is that of an exponential distribution.
+
+![Structure factors](structure.svg)
+**Figure 5** ([PDF](structure.pdf)). S(k) of (a) packings with N = 400, and of (b) octahedra with N = 400 and N = 4000.
+Error bars are 95 % confidence intervals.""", fluctuations),
+    ("A large packing", "One packing of 4000 octahedra, `n4000.json`.", large),
     ("Cost", "CPU times on one core of an AMD EPYC that also ran other work.", cost),
 )

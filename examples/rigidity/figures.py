@@ -8,9 +8,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "page"))
 import matplotlib  # noqa: E402
 from matplotlib import pyplot  # noqa: E402
 
-from data import SOLIDS, Data  # noqa: E402
-from drawing import COLOURS, MARKERS, SETTINGS, WIDTH, curve, letter, mean_path, save, solid_legend  # noqa: E402
+from data import SOLIDS, SOLIDS_64, Data  # noqa: E402
+from drawing import COLOURS, MARKERS, PALETTE, SETTINGS, WIDTH, curve, letter, mean_path, save, solid_legend  # noqa: E402
 from counting import EDGES, drawn_size  # noqa: E402
+from tables import other_solids  # noqa: E402
 from troughs import density  # noqa: E402
 
 DRAWN = (0.02, 0.01, 0.005, 0.001)  # Δφ of the densities of angles, beside the nearest
@@ -127,11 +128,37 @@ def frequencies(data, out):
     save(figure, out / "frequencies")
 
 
+def solids(data, out):
+    """Stiff tilts per contact of each class, and C_s, for many solids."""
+    figure, (upper, lower) = pyplot.subplots(2, 1, figsize=(WIDTH, 3.9), sharex=True, layout="constrained",
+                                             height_ratios=(3, 2))
+    names = [solid for solid in other_solids(data) if len(data.kept_of(SOLIDS_64, solid)) > 2]
+    colours = list(PALETTE["colours"].values())
+    for i, (name, label, expected) in enumerate((("ff", "face-face", 2), ("ef", "edge-face", 1), ("l", "others", 0))):
+        upper.axhline(expected, color="0.6", linewidth=0.8, linestyle=":")
+        found = [data.nearest_of(SOLIDS_64, solid, f"stiff_tilts_{name}") for solid in names]
+        upper.errorbar(range(len(names)), [e["mean"] for e in found], [e["half_width"] for e in found], fmt="os^"[i],
+                       color=colours[i], elinewidth=0.8, label=label)
+    lower.axhline(12, color="0.6", linewidth=0.8, linestyle=":")
+    for column, fmt, colour, label in (("C_s", "D", "black", "C$_s$"), ("C", "D", "white", "C by fit")):
+        found = [data.nearest_of(SOLIDS_64, solid, column) for solid in names]
+        lower.errorbar(range(len(names)), [e["mean"] for e in found], [e["half_width"] for e in found], fmt=fmt,
+                       color="black", markerfacecolor=colour, elinewidth=0.8, label=label)
+    upper.set(ylabel="stiff tilts per contact", ylim=(-0.2, 2.4))
+    lower.set(ylabel="constraints", xlim=(-0.5, len(names) - 0.5))
+    lower.set_xticks(range(len(names)), [name.replace("_", " ") for name in names], rotation=35, ha="right")
+    upper.legend(ncols=3, loc="upper center", bbox_to_anchor=(0.5, 0.86))
+    lower.legend(ncols=2, loc="upper right")
+    letter(upper, "a")
+    letter(lower, "b")
+    save(figure, out / "solids")
+
+
 def main():
     out, data = Path(sys.argv[1]), Data(*sys.argv[2:])
     out.mkdir(parents=True, exist_ok=True)
     with matplotlib.rc_context(SETTINGS):
-        for draw in (angles, counting, frequencies):
+        for draw in (angles, counting, frequencies, solids):
             draw(data, out)
 
 

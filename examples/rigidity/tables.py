@@ -3,7 +3,8 @@
 import math
 
 from counting import EDGES, WINDOWS, drawn_size, infinite, limit_at_jamming
-from data import SOLIDS
+from data import APART, SOLIDS, SOLIDS_64
+from estimates import estimate_of
 from limits import FORMS
 from text import counted, interval, number, significant, table
 
@@ -146,12 +147,29 @@ def modes(data):
                           "stiff_tilts_l": "stiff tilts, others"})
 
 
+def other_solids(data):
+    """Solids of the study of many solids, in its order, with the number of their replicates."""
+    replicates = data.studies.get(SOLIDS_64, {"replicates": ()})["replicates"]
+    return {solid: sum(r["solid"] == solid for r in replicates) for solid in dict.fromkeys(r["solid"] for r in replicates)}
+
+
+def solids(data):
+    rows = []
+    for solid, every in other_solids(data).items():
+        kept = data.kept_of(SOLIDS_64, solid)
+        cells = [data.nearest_of(SOLIDS_64, solid, name) for name in (
+            "Z", "C", "C_s", "missing", "redundant", "stiff_tilts_ff", "stiff_tilts_ef", "stiff_tilts_l", "prestress_10_each")]
+        rows.append([solid, f"{len(kept)} of {every}", interval(estimate_of([r["phi_j"] for r in kept])), *map(interval, cells)])
+    return table(["solid, N = 64", "packings", "φ_J", "Z", "C by fit", "C_s", "m", "S/N", "stiff tilts, face-face",
+                  "stiff tilts, edge-face", "stiff tilts, others", f"{MODES} normals and tilts"], rows)
+
+
 def cost(data):
     rows, total = [], 0
     for name, study in data.studies.items():
         for solid in SOLIDS:
             some = [r for r in study["replicates"] if r["solid"] == solid]
-            if some and name != "paper-protocol":
+            if some and name not in APART:
                 seconds = sum(r["cpu"] for r in some)
                 total += seconds
                 rows.append([name, f"{solid} {some[0]['particles']}", str(len(some)), f"{seconds / 60:.1f}"])
@@ -182,5 +200,7 @@ TABLES = (
     ("Normals, tilts and prestress", """Modes per particle in which the normals, or the normals and stiff tilts together,
      contribute less than half of the stiffness, and stiff tilts per contact. A tilt with the stiffness κ is stiff if s =
      κR/f > 10, with the radius of gyration R and the force f of the contact.""", modes),
+    ("Other solids", f"""Sixteen solids, N = 64, Δφ = {TILTS_AT}. The first number of packings is that of the packings in
+     the means, without crystals and failures. C_s counts the normal and the stiff tilts of each contact.""", solids),
     ("Cost", "CPU times on one core of an AMD EPYC that also ran other work.", cost),
 )

@@ -54,9 +54,9 @@ std::optional<std::string> read_exclude(const std::string& text, std::optional<s
   for (std::size_t from = 0; text != "none" && from <= text.size();) {
     const auto to = std::min(text.find(',', from), text.size());
     const auto name = text.substr(from, to - from);
-    if (name == "none") return "\"none\" is not accepted in a list; expected none alone, or names of flags";
+    if (name == "none") return "\"none\" is not accepted in a list; expected \"none\" alone, or names of flags";
     const auto flag = from_string<Flag>(name);
-    if (!flag) return unknown_name("flag", name, all_names<Flag>, "none or ");
+    if (!flag) return unknown_name("flag", name, all_names<Flag>, "\"none\" or ");
     if (std::find(flags.begin(), flags.end(), *flag) == flags.end()) flags.push_back(*flag);
     from = to + 1;
   }
@@ -107,18 +107,20 @@ void add_aggregate(CLI::App& app, Session& session) {
   options.parsed(
       "--exclude", [arguments](const std::string& text) { return read_exclude(text, arguments->choices.exclude); },
       [] {},
-      "Exclude replicates with these flags from the means. Separate flags by commas; none excludes no replicate "
+      "Exclude replicates with these flags from the means. Separate flags by commas; the word none keeps all "
+      "replicates "
       "(default: the flags of the manifest)",
       "FLAGS");
   options.parsed(
       "--base", [arguments](const std::string& text) { return parse_base(text, arguments->choices.base.emplace()); },
       [] {},
       "Print differences from the row with these values of swept parameters, for example "
-      "step_fraction=0.35,method=newton; none prints no differences (default: the base of the manifest)",
+      "step_fraction=0.35,method=newton; the word none prints no "
+      "differences (default: the base of the manifest)",
       "PARAMETER=VALUE");
   options.flag("--series", arguments->series,
                "Print the quantities of all states as functions of the distance to jamming, instead of those of the "
-               "nearest state (the format json always contains both)");
+               "state nearest jamming (the format json always contains both)");
 }
 
 }  // namespace isojam

@@ -20,10 +20,10 @@ namespace isojam {
 namespace {
 
 std::vector<ExitCodeDescription> exit_codes() {
-  return {{ExitCode::done, "everything was done"},
+  return {{ExitCode::done, "no error"},
           {ExitCode::some_failed,
-           "a replicate failed, memory, threads or disk space ran out, or a file could not be read or written"},
-          {ExitCode::usage, "error on the command line, or a path on it does not exist or is of the wrong kind"},
+           "a replicate failed; a resource ran out (memory, threads, disk); or a file could not be read or written"},
+          {ExitCode::usage, "wrong command line; or a path in it is missing or of the wrong kind; or the replicate has no packing"},
           {ExitCode::bad_input, "error in a manifest, damaged or missing results, or directory of another manifest"},
           {ExitCode::interrupted, "interrupted; repeat the command to resume"}};
 }
@@ -40,7 +40,7 @@ void add_console_options(Options options, ConsoleOptions& console) {
   options.flag("-v,--verbose", console.verbose, "Print a line for each finished replicate");
   options.choice("--color", console.colour, "Use colour on stderr");
   options.choice("--messages", console.form,
-                 "Set the format of messages on stderr; with json, each line is one object");
+                 "Set the format of messages on stderr; with json, each line is one object, except errors in the command line");
 }
 
 void add_option_names(const CLI::App& app, std::vector<std::string>& names) {
@@ -181,6 +181,8 @@ std::string own_text(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return "";
   if (auto text = unexpected_argument(app); !text.empty()) return text;
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) return missing_argument(app);
+  if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr)
+    return std::string(error.what()) + ": the two cannot be combined; remove one of them";
   return missing_value(app, error);
 }
 

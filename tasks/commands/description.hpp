@@ -14,7 +14,7 @@ struct OptionDescription {
   std::string place;  ///< name of a positional argument; empty for an option
   /// name of the value in the help, such as DIR or FILE, or a list of the choices; empty for a flag
   std::string type;
-  /// all allowed values; empty if any text is allowed
+  /// all allowed values if they are a list of names; otherwise empty
   std::vector<std::string> choices;
   std::string description;
   bool required = false;

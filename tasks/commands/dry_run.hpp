@@ -9,8 +9,9 @@
 namespace isojam {
 
 /// Prints a line for every sweep point: the number of replicates, how many of them are recorded, and the estimated CPU
-/// time of each. Then prints the estimated time, disk space and memory that the remaining replicates need. If there are
-/// records, the estimate is scaled to their times. It writes no file.
+/// time of a replicate. Then prints estimates for the remaining replicates: their time and disk space, and the memory
+/// of the replicate that needs the most. If there are records, the times are scaled to theirs. It writes no file.
+/// Throws InputError if the directory has records of another manifest.
 ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& directory,
                  const RunArguments& arguments);
 

@@ -63,8 +63,8 @@ void say_nearest_only(const Additions& additions, Console& console) {
   const auto count = additions.nearest_only.size();
   if (count == 0) return;
   console.info(
-      fmt::format("{} of {} without the states of the decompression (\"keep_path\": true saves them): measures "
-                  "only the state nearest jamming",
+      fmt::format("for {} of {}, the states of the decompression were not saved (\"keep_path\": true saves them), so "
+                  "isojam measures only the state nearest jamming",
                   count, counted(additions.measured.size(), "record")));
 }
 

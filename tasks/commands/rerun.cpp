@@ -101,7 +101,7 @@ void add_rerun(CLI::App& app, Session& session) {
   options.results_directory(arguments->directory);
   options.text("replicate", arguments->replicate, "Replicate: name of its file in records/, without .json", "REPLICATE",
                Options::Need::required);
-  options.flag("--json", arguments->json, "Print the new record on stdout, and the verdict on stderr");
+  options.flag("--json", arguments->json, "Print the new record on stdout, and the comparison on stderr");
   options.threads(arguments->threads);
 }
 

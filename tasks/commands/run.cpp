@@ -222,10 +222,11 @@ void add_run(CLI::App& app, Session& session) {
   };
   options.parsed(
       "--shard", read_shard, [arguments] { arguments->shard = shard_of_environment(); },
-      "Run part I of N of the study (default in a Slurm array: part I for task I)", "I/N");
+      "Run part I of N of the study (default in a Slurm array of N tasks: the I-th task runs part I)", "I/N");
   options.positive(
       "--memory", arguments->memory_gib,
-      "Run only as many replicates at the same time as fit into this memory (default: the available memory)", "GIB");
+      "Run only as many replicates at the same time as fit into this memory, but at least one (default: the "
+      "available memory)", "GIB");
   options.flag("--dry-run", arguments->dry_run, "Print the plan and its estimated cost, and run nothing");
 }
 

@@ -33,7 +33,8 @@ std::vector<std::string> recorded_names(const std::string& directory);
 /// text such as "../x" cannot become part of a path.
 std::string recorded_name(const std::string& directory, const std::string& name);
 
-/// Throws a FileError which states that no record has this name. It suggests the most similar name in `names`.
+/// Throws a UsageError which states that no record has this name. It suggests the most similar name in `names`, or an
+/// example of a name if none is similar.
 [[noreturn]] void throw_unknown_replicate(const std::string& directory, const std::string& name,
                                           const std::vector<std::string>& names);
 

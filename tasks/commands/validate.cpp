@@ -30,7 +30,7 @@ ExitCode validate(const ValidateArguments& arguments, Console& console) {
 void add_validate(CLI::App& app, Session& session) {
   ValidateArguments* arguments = nullptr;
   auto options = add_command(app, session, "validate",
-                             "Check a manifest, and print the number of its replicates and its user-defined solids",
+                             "Check a manifest; print its number of replicates, and a line for each user-defined solid",
                              validate, arguments);
   options.text("manifest", arguments->manifest, "Manifest of the study (-: standard input)", "MANIFEST",
                Options::Need::required);

@@ -27,8 +27,8 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 bool write_exclusively(const std::filesystem::path& path, std::string_view content);
 
 /// Writes a file that the user named on the command line. The write is atomic. Unlike write_atomically(), the function
-/// follows symbolic links, keeps the mode and owner of an existing file, and writes into a pipe or device instead of
-/// replacing it. Throws FileError.
+/// follows symbolic links, keeps the mode of an existing file, and its owner if the system permits this. It writes into
+/// a pipe or device instead of replacing it. Throws FileError.
 void write_output(const std::filesystem::path& path, std::string_view content);
 
 /// Writes like write_output(), but in several parts, for content that does not fit in the memory. A regular file

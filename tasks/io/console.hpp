@@ -50,9 +50,9 @@ class Console {
   void begin(int total, double work);
   /// Counts a replicate as finished, with its cost in the same unit.
   void finished(double work, bool failed);
-  /// Shows the progress of the round and the text `what`, or only `what` before the first begin(). On a terminal it
-  /// redraws a progress bar that is not wider than the terminal. Otherwise it prints a line. It does nothing if the
-  /// last output was less than 0.1 s ago. For lines of text, this time is 5 s.
+  /// Shows the progress of the round, or the text `what` before the first begin(). On a terminal it redraws a progress
+  /// bar that is not wider than the terminal. Otherwise it prints a line with the progress and `what`. It does nothing
+  /// if the last output was less than 0.1 s ago. For lines of text, this time is 5 s.
   void tick(std::string_view what);
   /// Ends the round: removes the progress bar, or prints the final progress as JSON.
   void end();

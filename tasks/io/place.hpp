@@ -48,8 +48,9 @@ class Problems {
   void note(const InputError& error);
   /// Suppresses later errors at this JSON pointer, because they are consequences of an error at another pointer.
   void settle(std::string pointer) { settled_.insert(std::move(pointer)); }
-  /// If errors were collected, throws one InputError with all of them, in the order of the document. If a required key
-  /// is missing, the error has the position of the object without this key.
+  /// If errors were collected, throws one InputError with all of them, in the order of the document. After the first
+  /// 100 errors, it states only how many more there are. If a required key is missing, the error has the position of
+  /// the object without this key.
   void refuse_any(const Json& document) const;
 
  private:
@@ -109,8 +110,9 @@ class JsonPlace {
   void expect_length(std::size_t length, std::string_view allowed) const;
   /// Throws unless the value is a list with 1 to `most` entries. Returns the number of entries.
   std::size_t expect_entries(std::size_t most, std::string_view allowed) const;
-  /// Throws if the object has a key that is not in `names`. The error suggests the name that `elsewhere` returns for
-  /// the key. If `elsewhere` is not given or returns an empty text, it suggests the most similar name.
+  /// Reports each key of the object that is not in `names`, inside attempt(). The error suggests the name that
+  /// `elsewhere` returns for the key. If `elsewhere` is not given or returns an empty text, it suggests the most
+  /// similar name.
   void expect_keys(std::span<const std::string_view> names, std::string (*elsewhere)(std::string_view) = nullptr) const;
 
   double number(const Range& range) const;

@@ -64,14 +64,14 @@ std::string unknown_parameter(const std::string& name) {
   const auto names = field_names();
   const auto now = new_name(name);
   if (!now.empty()) return fmt::format("parameter \"{}\" was renamed; use \"{}\"", name, now);
-  return unknown_name("parameter", name, names, "none or ");
+  return unknown_name("parameter", name, names, "\"none\" or ");
 }
 
 /// Parses one "parameter=value". Returns an error text if this fails.
 std::optional<std::string> parse_part(const std::string& part, std::map<std::string, Json>& values) {
   const auto equals = part.find('=');
   if (equals == std::string::npos)
-    return fmt::format("\"{}\" has no value; expected none, or PARAMETER=VALUE separated by commas", part);
+    return fmt::format("\"{}\" has no value; expected \"none\", or PARAMETER=VALUE separated by commas", part);
   const auto name = part.substr(0, equals);
   const auto* field = find_field(name);
   if (!field) return unknown_parameter(name);

@@ -4,14 +4,16 @@
 
 namespace isojam {
 
-/// Reads /protocol/by_solid, and adds the limits that isojam chooses itself. `manifest` must already have its sweep,
-/// its protocol and its minimiser.
+/// Reads /protocol/by_solid. Then sets two parameters if the manifest does not: consolidation_evaluations of
+/// tetrahedra, and max_density of cubes (see densest_compression()) if the cells are large enough. `manifest` must
+/// already have its sweep, its protocol and its minimiser.
 void read_by_solid(const JsonPlace& root, Manifest& manifest);
 
 /// Density above which cubes always have the target energy, plus the length of a strain step. Compression can therefore
 /// always reach the target energy below this limit. N particles of unit volume in a cell of volume N/φ overlap, so the
 /// intersections have a total volume of at least N(1 − 1/φ). With z neighbours per particle, E/N is then at least
-/// (1 − 1/φ)²/(2z), because E is the sum of V²/4. A cube in a crystal has z = 26 neighbours.
+/// (1 − 1/φ)²/(2z), because E is the sum of V²/4. A cube in a crystal has z = 26 neighbours. The result is never
+/// smaller than max_density, and never larger than 2.
 double densest_compression(const JamOptions& options);
 
 }  // namespace isojam

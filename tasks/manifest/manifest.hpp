@@ -88,7 +88,8 @@ Manifest parse_manifest(std::string_view text, const std::string& file);
 Manifest read_manifest(const std::string& file);
 
 /// Canonical form of a manifest. It contains every value, including defaults, and lists whose order has no meaning are
-/// sorted. parse_manifest() converts it back to the same manifest.
+/// sorted. User-defined solids are given by their vertices, and only if they are in the sweep. parse_manifest()
+/// converts it back to the same study.
 Json to_json(const Manifest& manifest);
 
 /// The part of the canonical form that must be the same for all runs in a results directory. It does not contain the

@@ -28,9 +28,12 @@ ShearOptions read_shear(const JsonPlace& place) {
   place.read_if_any("until", [&](const JsonPlace& value) { options.until = value.number(load_range); });
   place.read_if_any("back", [&](const JsonPlace& value) { options.back = value.boolean(); });
   if (!(options.step <= options.until && options.until <= most_steps * options.step)) {
+    const bool is_short = options.until < options.step;
     place.at(place.has("until") ? "until" : "step")
-        .refuse(fmt::format("steps of {} up to {} are not accepted", options.step, options.until),
-                fmt::format("1 to {:.0f} steps", most_steps));
+        .refuse_with_remedy(
+            is_short ? fmt::format("until {} is less than step {}", options.until, options.step)
+                     : fmt::format("until {} needs more than {:.0f} steps of {}", options.until, most_steps, options.step),
+            is_short ? "increase until or decrease step" : "decrease until or increase step");
   }
   return options;
 }

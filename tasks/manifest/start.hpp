@@ -32,7 +32,7 @@ Json to_json(const Start& start);
 /// - There are fewer files than replicates.
 /// - A file cannot be read, or does not contain a packing of the particles in the manifest.
 /// - A file has changed since its digest was computed.
-/// - The initial density is not below max_density.
+/// - The initial density is not below max_density, or is below half of consolidation_step.
 /// - The cell is not a cube, although the manifest prescribes the cell shape.
 /// - The cell is so small that a particle could touch two images of another one.
 /// - An overlap is larger than half of the volume of the smaller particle.

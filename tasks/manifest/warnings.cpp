@@ -77,8 +77,8 @@ void look_at_window(const JamOptions& options, Warnings& warnings) {
   if (last >= options.decompression.fit_window) {
     warnings.add(
         "final_distance", "",
-        fmt::format("{} is not below fit_window {}: no state would be in the window, and phi_j would be fitted "
-                    "to states outside it; increase fit_window",
+        fmt::format("{} is not below fit_window {}: at most one state would be in the window, and phi_j would "
+                    "be fitted to states outside it; increase fit_window",
                     last, options.decompression.fit_window));
   } else if (before >= options.decompression.fit_window) {
     warnings.add(
@@ -134,13 +134,13 @@ void look_at_density(const JamOptions& options, const Known& solid, Warnings& wa
   // all, no margin is needed.
   if (options.compression.max_density < needed + (distance == 0 ? 0 : scatter))
     warnings.add("max_density", name,
-                 fmt::format("{} is too low{}: {}; increase it", options.compression.max_density,
+                 fmt::format("{} is too low{}: {}; increase max_density", options.compression.max_density,
                              options.compression.max_density < needed ? "" : " for some packings", where));
   const double reached = options.compression.initial_density + (options.max_steps - 1) * options.compression.step;
   if (reached < needed - scatter) {
     warnings.add(
         "max_steps", name,
-        fmt::format("{} strain steps of {} from density {} reach at most {:.2f}: {}; increase max_steps",
+        fmt::format("{} steps of {} from density {}, the first without strain, reach at most {:.2f}: {}; increase max_steps",
                     options.max_steps, options.compression.step, options.compression.initial_density, reached, where));
   }
   if (distance > 0 && distance <= options.decompression.final_distance) {

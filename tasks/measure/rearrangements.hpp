@@ -12,7 +12,8 @@ namespace isojam {
 /// lost and gained.
 std::span<const Quantity> rearrangement_quantities();
 
-/// Writes these quantities to the record of a replicate. `path` is the path of its run, see rearrangements().
+/// Writes these quantities to the record of a replicate. `path` is the list of all its strain steps, see
+/// rearrangements().
 void put_rearrangements(Json& record, std::span<const JamStep> path);
 
 }  // namespace isojam

@@ -40,7 +40,7 @@ class Histogram {
   static constexpr int per_decade = 5;
   /// `bins` bins that begin at 10^(least/per_decade).
   Histogram(int least, int bins) : least_(least), counts_(static_cast<std::size_t>(bins), 0) {}
-  /// Values above the last bin are counted in the last bin. Smaller values, and 0, are counted separately.
+  /// Values above the last bin are counted in the last bin. Values below the first bin, and 0, are counted separately.
   void add(double value);
   /// JSON with the counts.
   Json record() const;

@@ -27,8 +27,8 @@ inline constexpr Quantity Z_ff_trough = optional_quantity({"Z_ff_trough", "/cont
                           C_trough_high = optional_quantity({"C_trough_high", "/contacts/trough/C_high", contact_group,
                                                              "per particle", "C^{trough}_{high}"});
 
-/// The histogram of the alignment angles of a state. Cut-offs must be below half of the smallest critical angles of all
-/// pairs of shapes.
+/// The histogram of the alignment angles of a state, and the bins in which cut-offs may lie. These bins are below half
+/// of the smallest critical angle over all pairs of shapes.
 AngleHistogram histogram_of(const ClassifiedContacts& classified);
 
 /// Writes the histogram, the troughs and the contact numbers to the record of a state.

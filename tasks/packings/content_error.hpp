@@ -30,7 +30,7 @@ class ContentError : public std::runtime_error {
                                  std::string_view allowed);
 
 /// Reads the bytes of the regular file at `path`, which the value at `place` names. An error of the path is reported at
-/// `place`. A failure of the machine is thrown as a FileError, because it is not an error of the manifest.
+/// `place`. A resource failure is thrown as a FileError, because it is not an error of the manifest.
 std::string read_named_file(const JsonPlace& place, const std::string& path, std::string_view allowed);
 
 }  // namespace isojam

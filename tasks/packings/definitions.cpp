@@ -31,7 +31,7 @@ std::vector<Vector3d> box_vertices(const JsonPlace& place) {
   for (std::size_t c = 0; c < 3; ++c) edges[static_cast<Eigen::Index>(c)] = place.at(c).number(edge_range);
   std::vector<Vector3d> vertices;
   for (int k = 0; k < 8; ++k)
-    vertices.emplace_back(edges.cwiseProduct(Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
+    vertices.emplace_back(edges.cwiseProduct(Vector3d(k & 1 ? 0.5 : -0.5, k & 2 ? 0.5 : -0.5, k & 4 ? 0.5 : -0.5)));
   return vertices;
 }
 

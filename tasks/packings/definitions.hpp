@@ -24,8 +24,8 @@ using SolidDefinitions = std::map<std::string, SolidDefinition, std::less<>>;
 
 /// Reads an object: {"brick": {"box": [1, 1.5, 2]}, "rock": {"file": "rock.off"}, "mine": {"vertices": [[…], …]}}. A
 /// file or a list of vertices may have the keys of RepairOptions. Paths are relative to the document. Any unit of
-/// length is allowed, because every solid is scaled to unit volume. Throws InputError if a name is invalid or already
-/// used, or if a solid is not convex.
+/// length is allowed, because every solid is scaled to unit volume. Throws InputError if a name is invalid or is that
+/// of a built-in solid, or if a solid is not convex.
 SolidDefinitions read_definitions(const JsonPlace& place);
 
 /// Reads the name of a solid at `place` and returns the solid. It is a built-in solid, or a solid that the document

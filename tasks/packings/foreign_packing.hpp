@@ -46,8 +46,8 @@ using TypeNames = std::map<std::string, std::string, std::less<>>;
 /// solid that has the same shape, up to rotation and shift. Points of a shape that are not corners of its convex hull
 /// are omitted, and `notes` states this. If the file contains no shape of the type, the solid has the name that `types`
 /// gives, or the name of the type. A type with another shape is refused. Lengths are scaled so that the mean volume is
-/// 1. Sizes, which files contain in single precision, are replaced by the sizes of the mixture. Throws ContentError if
-/// the particles are not those of the mixture.
+/// 1. The sizes in the file may be rounded, and are replaced by the sizes of the mixture. Throws ContentError if the
+/// particles are not those of the mixture.
 Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture, const TypeNames& types = {},
                    std::vector<std::string>* notes = nullptr);
 

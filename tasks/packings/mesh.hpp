@@ -21,7 +21,7 @@ struct Mesh {
   std::vector<std::string> notes;  ///< content of the file that does not belong to the solid
 };
 
-// Limits that are checked before the work. They are far above every solid that isojam accepts.
+// Limits that a file must not exceed. They are checked first, and are far above every solid that isojam accepts.
 inline constexpr std::size_t most_faces = 20000;
 inline constexpr std::size_t most_points = 3 * most_faces;  ///< each triangle may have corners of its own
 

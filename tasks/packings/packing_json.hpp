@@ -14,7 +14,8 @@ inline constexpr std::size_t most_particles = 1000000;
 Json to_json(const Packing& packing);
 
 /// Reads a packing with all bits of the original. Throws InputError if lists have different lengths, if a number is not
-/// allowed, if a quaternion is not of unit length, or if a particle could touch two images of another one in the cell.
+/// allowed, if the squared length of a quaternion is at most 0.5, or if a particle could touch two images of another
+/// one in the cell.
 Packing read_packing(const JsonPlace& place);
 
 }  // namespace isojam

@@ -20,7 +20,7 @@ std::vector<Eigen::Vector3d> read_vertices(const JsonPlace& place);
 /// causes is reported at this vertex.
 Solid solid_from(const JsonPlace& place, const std::string& name, const std::vector<Eigen::Vector3d>& vertices);
 
-/// Makes the same solid, but lets NoSolid pass.
+/// Makes the same solid, but throws NoSolid if the vertices form no solid.
 Solid made_solid(const JsonPlace& place, const std::string& name, const std::vector<Eigen::Vector3d>& vertices);
 /// The vertex that causes an error, if the list of vertices has the length `points`. Otherwise the list, because the
 /// corners of a box have no entry in the document.

@@ -35,12 +35,13 @@ inline constexpr std::size_t most_surface_points = 5000;
 /// coordinates are one point.
 Surface points_of(const Mesh& mesh);
 
-/// Tolerance of the checks, in units of the diameter, for a mesh whose points are welded within `merge` diameters.
+/// Tolerance of the checks, in units of the diameter, for a mesh whose points are welded within `merge` diameters. It
+/// is 1e-5 or 2·merge, whichever is larger. The first value is one unit in the sixth digit; files have seven or more.
 double surface_tolerance(double merge);
 
 /// Checks that the faces form one closed surface, that all of them are planar, and that it has no dents. Points within
-/// `merge` diameters of each other count as one. The other tolerance is one unit in the sixth digit, because files have
-/// seven digits or more. The time is O(n²) for n different points. Throws NoSurface with the line of a face.
+/// `merge` diameters of each other count as one. All other checks have the tolerance surface_tolerance(merge). The time
+/// is O(n²) for n different points. Throws NoSurface with the line of a face.
 Surface closed_surface(const Mesh& mesh, double merge);
 
 }  // namespace isojam

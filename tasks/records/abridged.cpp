@@ -25,7 +25,7 @@ std::uint64_t hashed(std::uint64_t hash, char c) { return (hash ^ static_cast<un
 /// Reads the text from the beginning to the end. The functions that read return false if the text is not as expected.
 class Reader {
  public:
-  Reader(std::string_view text, Angles angles) : text_(text), angles_(angles) {}
+  Reader(std::string_view text, States states) : text_(text), states_(states) {}
 
   std::optional<Abridged> result() {
     Abridged found{Json::object(), ""};
@@ -75,13 +75,14 @@ class Reader {
     const auto* const begin = text_.begin() + at_;
     const std::string_view token(begin, std::find_if(begin, text_.end(), ends));
     take(token.size());
+    if (!into) return !token.empty();
     const auto number = [&]<class T>(T value) {
       const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
-      if (into) *into = value;
+      *into = value;
       return error == std::errc() && end == token.data() + token.size();
     };
     if (token == "null" || token == "true" || token == "false") {
-      if (into && token != "null") *into = token == "true";
+      if (token != "null") *into = token == "true";
       return true;
     }
     if (token.find_first_of(".e") != std::string_view::npos) return number(double{});
@@ -113,15 +114,13 @@ class Reader {
     return entries('}', [&] {
       std::string_view key;
       if (!string(key)) return false;
-      const bool of_angles = key == angles_key;
       // Json::emplace() would compare the key with all other ones.
-      auto* const child = into && (!of_angles || angles_ == Angles::keep)
-                              ? &into->get_ref<Json::object_t&>().emplace_back(std::string(key), nullptr).second
-                              : nullptr;
+      auto* const child =
+          into ? &into->get_ref<Json::object_t&>().emplace_back(std::string(key), nullptr).second : nullptr;
       skip_space();
       if (!take_if(':')) return false;
       skip_space();
-      return value(child, of_angles ? Keep::all : keep, depth + 1);
+      return value(child, key == angles_key ? Keep::all : keep, depth + 1);
     });
   }
 
@@ -161,9 +160,11 @@ class Reader {
     const auto keep = key == "path" || key == "checksum"     ? Keep::nothing
                       : key == "spec" || key == "provenance" ? Keep::all
                                                              : Keep::short_lists;
-    const bool good = key == "checksum"       ? checksum()
-                      : keep == Keep::nothing ? value(nullptr, keep, 0)
-                                              : value(&record[std::string(key)], keep, 0);
+    const bool without_states = key == "states" && states_ == States::drop;
+    if (without_states) record["states"] = Json::array();
+    const bool good = key == "checksum"                         ? checksum()
+                      : keep == Keep::nothing || without_states ? value(nullptr, keep, 0)
+                                                                : value(&record[std::string(key)], keep, 0);
     skip_space();
     digested_ = false;
     return good;
@@ -179,7 +180,7 @@ class Reader {
   static constexpr std::uint64_t empty = 0xcbf29ce484222325U;  // hash_of("")
 
   std::string_view text_, checksum_;
-  Angles angles_;
+  States states_;
   std::size_t at_ = 0;
   std::uint64_t seal_ = empty, digest_ = empty;
   bool digested_ = false, digest_begun_ = false;
@@ -187,6 +188,6 @@ class Reader {
 
 }  // namespace
 
-std::optional<Abridged> abridged(std::string_view text, Angles angles) { return Reader(text, angles).result(); }
+std::optional<Abridged> abridged(std::string_view text, States states) { return Reader(text, states).result(); }
 
 }  // namespace isojam

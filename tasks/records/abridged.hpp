@@ -8,19 +8,21 @@
 
 namespace isojam {
 
-/// The part of a record that tables and surveys need.
+/// The part of a record that tables and `isojam status` need.
 struct Abridged {
-  Json record;                ///< the record without its path, and with empty lists inside its states
+  /// The record without `path` and `checksum`. Lists inside its members are empty, except in `spec` and `provenance`,
+  /// and except the histograms of angles.
+  Json record;
   std::string result_digest;  ///< result_digest() of the whole record
 };
 
-/// Treatment of the histograms of angles, which are a large part of a record.
-enum class Angles : bool { drop, keep };
+/// Treatment of the states of the decompression, which are the largest part of a record.
+enum class States : bool { drop, keep };
 
-/// Reads the text of a record and checks its checksum in one pass, several times faster than a parser of any JSON.
-/// Returns nullopt if the text differs from what isojam usually writes, for example if a string has an escape sequence.
-/// The caller must then parse the text in the usual way, which also reports errors. With Angles::keep, the histograms
-/// of angles are whole. Otherwise the states lack them.
-std::optional<Abridged> abridged(std::string_view text, Angles angles);
+/// Reads the text of a record and checks its checksum in one pass, several times faster than a general JSON parser.
+/// Returns nullopt if the checksum is wrong, or if the text differs from what isojam usually writes, for example if a
+/// string has an escape sequence. The caller must then parse the text in the usual way, which also reports errors. With
+/// States::drop, the list of states is empty.
+std::optional<Abridged> abridged(std::string_view text, States states);
 
 }  // namespace isojam

@@ -97,10 +97,10 @@ RecordedReplicate read_record(const fs::path& directory, const std::string& name
   return parsed_record(expect_present(file, [&] { return read_result(file); }), file, name);
 }
 
-static RecordedReplicate read_quickly(const fs::path& directory, const std::string& name, Angles angles) {
+static RecordedReplicate read_quickly(const fs::path& directory, const std::string& name, States states) {
   const auto file = file_in(directory, "records", name);
   const auto text = expect_present(file, [&] { return read_result(file); });
-  if (auto shorter = abridged(text, angles)) {
+  if (auto shorter = abridged(text, states)) {
     const auto is = [&](const char* key, std::string_view value) {
       const auto found = shorter->record.find(key);
       return found != shorter->record.end() && found->is_string() && found->get_ref<const std::string&>() == value;
@@ -112,11 +112,11 @@ static RecordedReplicate read_quickly(const fs::path& directory, const std::stri
 }
 
 RecordedReplicate read_abridged_record(const fs::path& directory, const std::string& name) {
-  return read_quickly(directory, name, Angles::keep);
+  return read_quickly(directory, name, States::keep);
 }
 
-RecordedReplicate read_record_without_angles(const fs::path& directory, const std::string& name) {
-  return read_quickly(directory, name, Angles::drop);
+RecordedReplicate read_record_without_states(const fs::path& directory, const std::string& name) {
+  return read_quickly(directory, name, States::drop);
 }
 
 bool is_of(const RecordedReplicate& replicate, const Plan& plan) {

@@ -27,8 +27,8 @@ RecordedReplicate read_record(const std::filesystem::path& directory, const std:
 /// The same with less time, for tables. The key `path` is missing in `record`, and lists inside its states may be
 /// empty, except histograms of angles.
 RecordedReplicate read_abridged_record(const std::filesystem::path& directory, const std::string& name);
-/// The same with still less time, for surveys. The histograms of angles may be missing too.
-RecordedReplicate read_record_without_angles(const std::filesystem::path& directory, const std::string& name);
+/// The same with still less time, for `isojam status`. The list of states may be empty.
+RecordedReplicate read_record_without_states(const std::filesystem::path& directory, const std::string& name);
 
 /// True if the record has the result that this plan requests, apart from measures. This is the case if the identity()
 /// of its manifest and that of the plan differ at most in the measures. It is also the case if only the sweep has

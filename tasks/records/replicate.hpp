@@ -48,7 +48,7 @@ struct Checkpoint {
 struct Stages {
   /// Makes the progress with which the run begins, from the initial configuration or from a checkpoint.
   std::function<Checkpoint(const ReplicateSpec&)> begin;
-  /// Compresses and decompresses the packing.
+  /// Compresses and decompresses the packing. Then relaxes saddles to minima if a measure needs minima.
   std::function<JamResult(const ReplicateSpec&, JamProgress, std::stop_token, const OnProgress&)> jam;
   /// Computes one measure.
   std::function<Measurement(const ReplicateSpec&, Measure, const JamResult&)> measure;

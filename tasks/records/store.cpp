@@ -81,7 +81,7 @@ std::optional<Manifest> manifest_in(const fs::path& directory, const Manifest& m
   if (is_growth)
     throw InputError({path.string(), "/measure", "the directory has other measures than the manifest", "", "",
                       how_to_add(directory, *theirs, manifest)});
-  refuse_other(path.string(), "", differences(*theirs, manifest));
+  refuse_other(directory.string(), "", differences(*theirs, manifest));
 }
 
 /// The manifest with the larger sweep. If the sweeps are the same, the new manifest.

@@ -19,11 +19,11 @@ namespace isojam {
 using Warn = std::function<void(const std::string&)>;
 
 /// Checks whether results of this manifest may be written to a directory. It only reads files. Throws InputError if the
-/// directory has another manifest or records of another manifest; the error states what differs. The sweep may have
-/// grown since, or may be a part of the sweep of the directory. Settings of failed replicates may have changed; these
-/// replicates are computed again. A damaged record of the plan is ignored, because it will be recomputed. For a damaged
-/// record that is not in the plan, `warn` is called. Throws FileError if a file cannot be read at the moment, or if one
-/// of the folders is a symbolic link, because results would then be written to another directory.
+/// directory has another manifest or records of another manifest; the error states what differs. The sweep of
+/// `manifest` may be larger or smaller than that of the directory. Settings of failed replicates may have changed;
+/// these replicates are computed again. A damaged record of the plan is ignored, because it will be recomputed. For a
+/// damaged record that is not in the plan, `warn` is called. Throws FileError if a file cannot be read at the moment,
+/// or if one of the folders is a symbolic link, because results would then be written to another directory.
 void check_directory(const std::filesystem::path& directory, const Manifest& manifest, const Warn& warn);
 
 /// A results directory. It contains manifest.json, tables.json, and the folders records/, packings/, paths/ and
@@ -101,9 +101,10 @@ Manifest extend_manifest(const std::filesystem::path& directory, const std::vect
 using ReadRecord = RecordedReplicate (*)(const std::filesystem::path& directory, const std::string& name);
 
 /// Passes the records of a results directory to `use`, one at a time, in the order of their names. Some records are
-/// skipped with a warning: records of another manifest, and damaged records that are not in the plan of `manifest`. If
-/// `manifest` is nullopt, no record is skipped. Throws InputError for any other damaged record. Throws FileError if the
-/// directory has no records, or if a record cannot be read at the moment.
+/// skipped with a warning: records of another manifest, and damaged records that are not in the plan of `manifest`.
+/// Superseded records are skipped without a warning, see is_superseded(). If `manifest` is nullopt, no record is
+/// skipped. Throws InputError for any other damaged record. Throws FileError if the directory has no records, or if a
+/// record cannot be read at the moment.
 void for_each_record(const std::filesystem::path& directory, const std::optional<Manifest>& manifest, const Warn& warn,
                      const std::function<void(RecordedReplicate)>& use, ReadRecord read = read_record);
 /// The same loop with the manifest in the directory, if there is one.

@@ -137,6 +137,9 @@ RecordSummary summarise_record(const Json& record, const std::string& file) {
   if (root.has("nearest_only")) summary.nearest_only = read_measures(root.at("nearest_only"));
   for (const std::string key : {"protocol", "minimiser", "measure", "modes"})
     summary.settings[key] = spec.at(key).value();
+  const bool is_sheared =
+      std::find(summary.measures.begin(), summary.measures.end(), Measure::shear) != summary.measures.end();
+  if (is_sheared && spec.has("shear")) summary.settings["shear"] = spec.at("shear").value();
   summary.failed = root.at("status").choice(std::array<std::string_view, 2>{"done", "failed"}) == 1;
   if (summary.failed) {
     root.at("failure").at("where").text();

@@ -45,7 +45,7 @@ struct RecordSummary {
   std::vector<Before> before;
   std::vector<Measure> measures;  ///< measures of the record, without those that this version of isojam does not know
   std::vector<Measure> nearest_only;  ///< measures whose values are only those of the nearest state
-  Json settings;                      ///< settings of the protocol, the minimiser and the measures
+  Json settings;                      ///< protocol, minimiser, measures, modes; also shear if it was measured
   std::string build;                  ///< version, commit and compiler of the program that made the record
   /// result_digest() of the record; two records with the same result have the same digest
   std::string result_digest;

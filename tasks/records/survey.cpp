@@ -53,7 +53,7 @@ void survey_records(const fs::path& directory, const Plan& plan, bool with_paths
   std::vector<CpuTimes> times(survey.points.size());
   for (const auto& name : names_in(directory / "records")) {
     try {
-      const auto held = read_record_without_angles(directory, name);
+      const auto held = read_record_without_states(directory, name);
       const auto& summary = held.summary;
       const auto place = plan.place_of(name);
       if (!place) {

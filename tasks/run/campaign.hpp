@@ -15,8 +15,8 @@ namespace isojam {
 /// The replicates of a study that a shard has to run, in rounds.
 ///
 /// Without a goal there is one round, and each shard gets single replicates of the plan. With a goal, a round contains
-/// the next batch of replicates of every sweep point that has not reached the goal. This depends only on the recorded
-/// replicates of earlier batches of the same point. Each shard then gets whole sweep points, because a shard cannot
+/// the next batch of replicates of every sweep point that has not reached the goal. The batch of a point depends only
+/// on the recorded replicates of its earlier batches. Each shard then gets whole sweep points, because a shard cannot
 /// wait for results of another one.
 ///
 /// The object stores a few numbers for each sweep point. With a goal, it also stores one value for each replicate.
@@ -25,7 +25,7 @@ class Campaign {
   Campaign(const Plan& plan, const Replicates& rule, const Shard& shard, const Store& store);
 
   /// Begins the next round. Before the call, all replicates that next() returned must be in the records. Returns false
-  /// if there are no more rounds.
+  /// if there are no more rounds. With a goal, throws FileError if one of these records was removed or damaged.
   bool open_round();
   /// The next replicate of the round that has no valid record; nullopt if the round has no more such replicates.
   std::optional<ReplicateSpec> next();

@@ -17,15 +17,15 @@ struct GraphOptions {
   std::function<void(const ReplicateSpec&, const Checkpoint&)> on_step;
 };
 
-/// Returns the next replicate to run, or nullopt if there are no more. It is called by one thread at a time, and only
-/// when another replicate can start. The memory therefore does not depend on the number of replicates.
+/// Returns the next replicate to run, or nullopt if there are no more. It is called by one thread at a time, at most a
+/// few replicates before they can start. The memory therefore does not depend on the number of replicates.
 using NextReplicate = std::function<std::optional<ReplicateSpec>()>;
 
 /// Runs all stages of every replicate, and passes one outcome for each replicate to `on_outcome`, one at a time, in any
 /// order. If a stage throws an exception, the replicate fails and the run continues. However, a resource failure (see
-/// is_resource_failure()) stops the run and is thrown from here. The same is true for an exception of `next`,
+/// is_resource_failure()) stops the run, and run_graph() throws it. The same is true for an exception of `next`,
 /// `on_outcome` or `on_step`. After a stop request, no further replicate starts, and the outcomes of running replicates
-/// are marked as interrupted.
+/// are marked as interrupted, unless all their stages have ended.
 void run_graph(const NextReplicate& next, const Stages& stages, const GraphOptions& options,
                const std::function<void(const Outcome&)>& on_outcome);
 

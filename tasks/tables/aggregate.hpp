@@ -127,7 +127,7 @@ class Aggregation {
     std::optional<double> at(Cell cell) const;
   };
   using PointKey = std::tuple<Mixture, int, Json>;
-  using ReplicateKey = std::pair<std::string, int>;  // manifest digest, replicate
+  using ReplicateKey = std::pair<std::string, int>;  // RecordSummary::study, replicate
   // NOLINTNEXTLINE(bugprone-exception-escape): as above.
   struct Point {
     Json settings;

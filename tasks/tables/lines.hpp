@@ -36,7 +36,8 @@ std::string difference_title(const Table& table);
 /// "excluded from means: crystalline (2), not_balanced (0)", with the numbers of replicates. Empty if the table
 /// excludes no flag.
 std::string exclusion_text(const Table& table);
-/// "measured for the nearest state only (replicates): modes (8)". Empty if all states of all replicates were measured.
+/// "measured only for the state nearest jamming (replicates): modes (8)". Empty if all states of all replicates were
+/// measured.
 std::string nearest_only_text(const Table& table);
 
 /// The replicates that are used for the estimates of a line. kept: all that neither failed nor are excluded. all: all

@@ -15,16 +15,16 @@
 
 namespace isojam {
 
-/// The histogram of a state in little memory. Numbers of contacts are rounded to multiples of 2^−16, so that sums of
-/// them are exact and do not depend on their order.
+/// Compact copy of the histogram of the alignment angles of one state. Numbers of contacts are rounded to multiples of
+/// 2^−16, so that sums of them are exact and do not depend on their order.
 class PackedAngles {
  public:
   explicit PackedAngles(const AngleHistogram& histogram);
   AngleHistogram unpacked() const;
 
  private:
-  /// Number of contacts in a bin of θ_ff, in a bin of θ_ef, or in a bin of both. In the first two cases, the bin of the
-  /// other angle is `any`.
+  /// Number of contacts in a bin of θ_ff, in a bin of θ_ef without the contacts that an entry with both bins contains,
+  /// or in a bin of both. In the first two cases, the bin of the other angle is `any`.
   struct Entry {
     std::uint8_t face_face, edge_face;
     float contacts;
@@ -41,7 +41,8 @@ struct PooledTrough {
   int replicates = 0;    ///< number of replicates whose angles are combined
   double particles = 0;  ///< number of particles in all of them together
   TroughCutoffs cutoffs = {};
-  /// Names of the estimates in tables, and means over the replicates. They have no values if there is no trough.
+  /// Names of the estimates in tables, and means over the replicates. Z_ff has a value if θ_ff has a trough. The others
+  /// need both troughs.
   static constexpr std::array<std::string_view, 6> names{"Z_ff_pooled", "Z_ef_pooled",  "Z_l_pooled",
                                                          "C_pooled",    "C_pooled_low", "C_pooled_high"};
   std::array<Estimate, 6> estimates = {};
@@ -52,7 +53,7 @@ struct PooledTrough {
 class PooledAngles {
  public:
   static constexpr std::size_t most_groups = 32;
-  /// Adds a replicate, which has not been added before. The result does not depend on the order.
+  /// Adds a replicate. Requires that it was not added before. The result does not depend on the order.
   void add(const std::string& study, int replicate, const AngleHistogram& histogram);
   /// Finds the troughs of all replicates, which have the same number of particles. nullopt if there are no replicates.
   /// `key` is the text from which the random numbers of the bootstrap are derived.

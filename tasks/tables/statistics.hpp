@@ -26,7 +26,7 @@ inline constexpr std::array enum_names<IntervalMethod>{EnumName{IntervalMethod::
                                                        EnumName{IntervalMethod::stein, "stein"},
                                                        EnumName{IntervalMethod::wilson, "wilson"}};
 
-/// Mean over replicates, and its uncertainty. The last four members are nullopt for fewer than two values.
+/// Mean over replicates, and its uncertainty. sd, half_width and both intervals are nullopt for fewer than two values.
 struct Estimate {
   int n = 0;
   std::optional<double> mean;        ///< nullopt if n = 0

@@ -29,7 +29,7 @@ int next_batch_end(int replicates, int max);
 /// The stopping rule of a sweep point. It is checked after the first `min` replicates and after every batch. The point
 /// is finished if the 95 % confidence interval of the mean over all replicates so far is narrow enough for the goal.
 /// The interval is Stein's, because Student's is narrow by chance too often when it is checked repeatedly. The interval
-/// of a proportion is Wilson's. Equal values meet no goal, because their spread is unknown.
+/// of a proportion is Wilson's. Except for a proportion, equal values meet no goal, because their spread is unknown.
 /// `values[r]` is the value of replicate r; it is nullopt if the replicate failed, is excluded or has no value.
 /// `values` must end before the first replicate that is not recorded. The result therefore does not depend on which
 /// replicate finishes first.

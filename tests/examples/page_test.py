@@ -197,28 +197,6 @@ class Limits(unittest.TestCase):
 
 
 class Troughs(unittest.TestCase):
-    def bins(self, stream, edges, others, packings=4):
-        """Artificial packings of 100 particles with two populations of θ_ef, and no face-face contacts."""
-        made = []
-        for _ in range(packings):
-            angles = [stream.gauss(-5, 0.4) for _ in range(edges)] + [stream.gauss(-1, 0.4) for _ in range(others)]
-            counts = [0] * 42
-            for x in angles:
-                counts[min(41, max(0, math.floor((x + 8) / 0.2)))] += 1
-            flat = [0] * 42
-            flat[40] = len(angles)
-            made.append({"particles": 100, "bins": {"theta_ef": [-8.0, counts], "theta_ff": [-8.0, flat]}})
-        return made
-
-    def test_two_populations(self):
-        found = troughs.from_bins(self.bins(random.Random(2), 120, 300))
-        self.assertAlmostEqual(found["C"]["mean"], 2 * (2 * 120 + 300) / 100, delta=0.02)
-        self.assertLess(found["C_high"]["mean"] - found["C_low"]["mean"], 0.05)
-        self.assertTrue(1e-4 < found["edge_face"]["cutoff"] < 1e-2)
-        centres, density, error = troughs.density(found, "theta_ef")
-        self.assertAlmostEqual(sum(density) * 0.2, 2 * 420 / 100)
-        self.assertEqual(len(centres), len(error))
-
     def test_bins_are_joined(self):
         entry = {"particles": 10, "packings": 2, "width": 0.05, "theta_ef": [-41, [1, 2, 3, 4, 5, 6]]}
         centres, density, _ = troughs.density(entry, "theta_ef")

@@ -7,8 +7,8 @@
 
 namespace isojam {
 
-/// Number of bins in a decade of an angle, and in all decades from 1e-12 to 10^0.5 > π radians. The accuracy of
-/// alignment angles of parallel features is 1e-12. Smaller angles are in the first bin.
+/// Number of bins per decade, and number of all bins. The bins cover the angles from 1e-12 to 10^0.5 > π radians. The
+/// accuracy of alignment angles of parallel features is 1e-12. Smaller angles are in the first bin.
 inline constexpr int angle_bins_per_decade = 20, angle_bins = 250;
 /// Decimal logarithm of the lower edge of the first bin (angles in radians).
 inline constexpr int angle_bins_from = -12;
@@ -25,7 +25,8 @@ int angle_bins_below(double upper);
 /// combined with weights.
 struct AngleHistogram {
   std::vector<double> face_face = std::vector<double>(angle_bins);  ///< numbers of contacts by θ_ff, for each bin
-  /// Contacts with both angles in given bins. Only contacts with θ_ff in the first `face_face_window` bins are listed.
+  /// Contacts with both angles in given bins. angle_histogram() lists only the contacts with θ_ff in the first
+  /// `face_face_window` bins. After add(), cells beyond the smaller window remain.
   struct Cell {
     int face_face = 0, edge_face = 0;  ///< bins of the two angles
     double contacts = 0;
@@ -33,8 +34,8 @@ struct AngleHistogram {
   std::vector<Cell> cells;  ///< sorted by (face_face, edge_face), without repetition
   /// numbers of the contacts that are not in `cells`, by θ_ef, for each bin
   std::vector<double> edge_face_apart = std::vector<double>(angle_bins);
-  /// Numbers of bins in which a cut-off may lie, from the first bin on; 0 if the smallest critical angle is below the
-  /// accuracy of the angles.
+  /// The cut-offs of θ_ff and θ_ef must lie in the first `face_face_window` and `edge_face_window` bins. A window is 0
+  /// if the upper limit of the cut-off is below the accuracy of the angles.
   int face_face_window = 0, edge_face_window = 0;
 
   double contacts() const;  ///< number of all contacts

@@ -8,7 +8,7 @@
 
 namespace isojam {
 
-/// Result of a fit.
+/// Result of a fit. CdfFit defines c, α, a_0 and `upper`.
 enum class FitVerdict {
   not_called,
   fitted,

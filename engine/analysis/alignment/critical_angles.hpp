@@ -32,11 +32,13 @@ CriticalAngles critical_angles(const ConvexSolid& a, const ConvexSolid& b);
 /// Computes the smallest value of each critical angle over all pairs of solids in a mixture.
 CriticalAngles critical_angles(const Mixture& mixture);
 
-/// True if the solid is regular. The test is that all edges have the same dihedral angle, all vertices have the same
-/// angles, and all faces have the same number of sides.
+/// True if the solid is regular. The test is that all edges have the same dihedral angle, and all faces have the same
+/// number of sides. At all vertices, the edges must also have the same angle with the line from the centroid to the
+/// vertex, and so must the face normals.
 bool has_like_features(const ConvexSolid& solid);
 
 /// Computes the critical angles from the largest dihedral angle and the normal cones of all vertices, for any solid.
+/// The normal cone of a vertex is the set of outward normals of all planes that touch the solid only at this vertex.
 /// Tests use the result as the reference for the closed form.
 CriticalAngles critical_angles_of_cones(const ConvexSolid& solid);
 

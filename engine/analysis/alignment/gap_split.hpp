@@ -14,7 +14,9 @@ enum class GapVerdict {
   separated,  ///< the angles form two groups with a gap between them
   all_alike,  ///< all angles form one group, whose distance from `upper` in log θ is larger than its width
   no_gap,     ///< no division into two groups separates them better than for a uniform distribution of log θ
-  too_few     ///< there are fewer than 10 angles below `upper`, or `upper` is below the accuracy of the angles
+  /// there are fewer than 10 angles below `upper`; analyse_contacts() also sets this verdict if `upper` is below the
+  /// accuracy of the angles
+  too_few
 };
 template <>
 inline constexpr std::array enum_names<GapVerdict>{
@@ -43,7 +45,7 @@ struct GapSplit {
   /// Value that η must exceed for the verdict `separated`: 3/4 + quantile·√(0.075/n) for n angles below `upper`.
   /// Reason: if the logarithms are uniformly distributed, η has the mean 3/4 and the standard deviation √(0.075/n). The
   /// standard deviation is computed to first order in the influence of each angle, (4u − 3u² − 1)·3/4 with u uniform on
-  /// [0, 1]. A power law c ∝ θ^p without a gap gives a smaller η: the logarithms then have an exponential distribution,
+  /// [0, 1]. A distribution ∝ θ^p without a gap gives a smaller η: the logarithms are then distributed exponentially,
   /// and η = max t²/(e^t − 1) = 0.648 for any p.
   double critical = 0;
   int below = 0;  ///< number of angles below the cut-off
@@ -51,8 +53,9 @@ struct GapSplit {
 
 /// Finds a gap that divides the angles into two groups. Near jamming, the angles of face-face contacts are smaller than
 /// all other angles by orders of magnitude. The method does not assume a form of their distribution. `angles` are in
-/// radians and may have any order. Throws std::invalid_argument if an angle is negative or not finite, or unless 0 <
-/// resolution < upper.
+/// radians and may have any order. Angles from `upper` on are ignored; usually, `upper` is half of the smallest
+/// critical angle. Throws std::invalid_argument if an angle is negative or not finite, or unless 0 < resolution <
+/// upper.
 GapSplit split_at_gap(std::span<const double> angles, double upper, const GapOptions& options = {});
 
 }  // namespace isojam

@@ -30,12 +30,13 @@ class RandomAlignment {
   explicit RandomAlignment(const ConvexSolid& solid, Way way = Way::closed_where_regular);
 
   /// Distribution of θ_ff, the angle between a random direction and the nearest face normal. It is the fraction of the
-  /// unit sphere that is within θ of a normal. This area consists of spherical caps around the normals. Each cap is
-  /// clipped by the spherical polygon that its face subtends.
+  /// unit sphere that is within θ of a normal. This area consists of spherical caps around the normals. For a regular
+  /// solid, each cap is clipped by the spherical polygon that its face subtends.
   double face_face(double theta) const;
-  /// Distribution of θ_ef. The normal cone of a vertex forms a polygon on the unit sphere. θ_ef is the smallest angle
-  /// from a random direction to the sides of the polygon that contains this direction. The distribution is 1 minus the
-  /// fraction of the polygon that is farther than θ from all sides. The Gauss–Bonnet theorem gives this fraction.
+  /// Distribution of θ_ef. The outward normals of all planes that touch the solid only at one vertex form a polygon on
+  /// the unit sphere, the normal cone. θ_ef is the smallest angle from a random direction to the sides of the polygon
+  /// that contains this direction. The distribution is 1 minus the fraction of the polygon that is farther than θ from
+  /// all sides. The Gauss–Bonnet theorem gives this fraction.
   double edge_face(double theta) const;
   /// Distribution of θ_ff in the edge-face constrained model.
   double constrained_face_face(double theta) const;
@@ -49,7 +50,7 @@ class RandomAlignment {
 
   /// True if the distributions are computed from a sample: the solid is not regular, or Way::sampled was requested. The
   /// sample consists of n = 65 536 directions, one in each of n parts of the sphere with equal areas. The standard
-  /// deviation of a distribution is then about n^(-3/4).
+  /// deviation of a distribution is then about n^(-3/4). The constrained model uses 256 rotations about each edge.
   bool is_sampled() const { return !face_face_.empty(); }
 
  private:
@@ -80,8 +81,7 @@ inline constexpr std::array enum_names<RandomnessVerdict>{
 
 /// Options of compare_with_random().
 struct RandomnessOptions {
-  /// an angle counts as near 0 if the distribution for random contacts is below this value at this angle; the
-  /// distribution is almost linear there
+  /// an angle counts as near 0 if the distribution for random contacts is below this value at this angle
   double fraction = 0.1;
   double level = 0.01;  ///< significance level for each side of the test
 };

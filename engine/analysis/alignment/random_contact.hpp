@@ -39,8 +39,9 @@ ContactShares contact_shares(const ContactSize& a, const ContactSize& b);
 /// the two normals at the edge of A, and between those at the edge of B. The angle ψ between the edges has the density
 /// sin²ψ: one factor sin ψ for the area of the parallelogram, and one for the rotations in which the two arcs of
 /// normals cross (Poincaré).
-///   θ_ff   smallest angle between a normal of A and the negative of a normal of B; c → 4 ⟨1/(α_A α_B)⟩ θ² for θ → 0
-///   θ_ef   sin θ_ef = sin ψ · (smallest sine of the angles between the common normal and the four normals)
+///   θ_ff   smallest angle between a normal of A and the negative of a normal of B. Its cumulative distribution is
+///          4 ⟨1/(α_A α_B)⟩ θ² for θ → 0, where ⟨ ⟩ is the mean over the edges.
+///   θ_ef   sin θ_ef = sin ψ · (smallest sine of an angle between the common normal and one of the four normals)
 /// The distributions are computed from 131072 fixed points with an error of 2e-3. Below a hundredth of the smallest
 /// α/2, the limiting law for θ → 0 is used. The distributions apply to any convex solids, and do not depend on the
 /// sizes of the solids.

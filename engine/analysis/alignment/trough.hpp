@@ -24,8 +24,8 @@ inline constexpr std::array enum_names<TroughVerdict>{EnumName{TroughVerdict::no
 ///
 /// Test. Without a trough, f does not decrease within the window, so the number N(x) of angles below x is a convex
 /// function. Its greatest convex minorant G consists of straight segments. Let E be the largest excess N − G in a
-/// segment, and n the number of angles in the segment. For many angles, √n times the maximum of a Brownian excursion
-/// has the distribution of E, so that E > t √n has the probability
+/// segment, and n the number of angles in the segment. For many angles, E has the same distribution as √n times the
+/// maximum of a Brownian excursion, so that E > t √n has the probability
 ///     P(t) = 2 Σ_{k≥1} (4k²t² − 1) exp(−2k²t²) ≈ 2 (4t² − 1) exp(−2t²)   (K. L. Chung, Ark. Mat. 14, 155 (1976)).
 /// The segment with the largest E/√n has a trough if E exceeds its critical value t √n. Here t satisfies
 /// m·2 (4t² − 1) exp(−2t²) = 0.05, and m is the number of segments with more than t² angles: E is at most n, so that

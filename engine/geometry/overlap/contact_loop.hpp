@@ -19,7 +19,7 @@ inline constexpr int narrow_edges = SolidArrays::narrow_edges, wide_edges = Smal
                      large_edges = LargeSolids::edges;
 
 enum class LoopVerdict : std::uint8_t {
-  separated,  ///< a face separates the solids, or no edge of one solid has a point inside the other
+  separated,  ///< a face separates the solids, or no edge of A or B has a point inside the other solid
   /// every segment has two ends, so the loop is the boundary between the parts of the surface that belong to A and to B
   closed,
   /// a vertex lies on a plane within rounding errors, the loop is not closed, or one solid contains the other
@@ -64,7 +64,8 @@ struct ContactLoop {
   alignas(32) double tables[2 * Distances<Solids>::max_size];  ///< memory of the tables of_a and of_b
   /// For each corner, the coordinates x, y, z relative to `origin` (lab frame), and the height above the reference
   /// plane, which is negative inside. Heights are interpolated between the distances in the tables. They are therefore
-  /// exactly 0 on the plane. Near the plane they are never computed as the difference of larger numbers.
+  /// exactly 0 on the plane. Near the plane they are never computed as the difference of larger numbers. After
+  /// refine_small_corners(), heights are relative to one of the corners instead.
   alignas(32) double corner[max_corners][4];
   LoopVerdict verdict = LoopVerdict::degenerate;
   SeparatingAxis axis;  ///< the face that separates the solids, if one was found

@@ -195,9 +195,9 @@ inline std::uint32_t equal_unions(std::uint64_t bytes, const std::uint8_t* tail,
 
 #endif
 
-/// Numbers for the tags of doubles. tagged() stores an index below `range`, a power of two, in the last of the 52
-/// mantissa bits of a double, and tag_of() reads it. The minimum or maximum of tagged doubles therefore contains the
-/// index of the element where it was found.
+/// Numbers for the tags of doubles. tagged() stores an index below `range`, a power of two, in the last log2(range) of
+/// the 52 mantissa bits of a double, and tag_of() reads it. The minimum or maximum of tagged doubles therefore contains
+/// the index of the element where it was found.
 template <std::uint64_t range>
 struct Tags {
   alignas(32) std::uint64_t mask[4] = {-range, -range, -range, -range};

@@ -16,7 +16,7 @@ struct Numbers {
   static constexpr bool in_one_word = 2 * limit <= 64;
   /// Edges of A have numbers below `edges`; those of B follow.
   static constexpr std::uint32_t edges = std::bit_ceil(std::uint32_t{limit});
-  /// A pair of faces (i, j) has the number faces·i + j; j takes this many bits.
+  /// A pair of faces (i, j) has the number faces·i + j. The number j takes `bits` bits.
   static constexpr std::uint32_t faces = std::min(edges, Loop::face_of_b);
   static constexpr std::uint32_t bits = std::countr_zero(faces);
   static constexpr std::uint32_t all_pairs = faces * faces;

@@ -24,8 +24,8 @@ enum class OverlapPath : std::uint8_t { separated, loop, clip };
 /// Intersection of two solids A and B. Vectors are relative to the centre of A. Placed solids give vectors in the lab
 /// frame; solids with a relative pose give vectors in the body frame of A. Quantities:
 ///   volume  V
-///   area    S_A = ½ Σ_C v×w = ∂V/∂x_A, the vector area of A's part of the boundary of the intersection
-///   moment  M_A = ∫ r×n dS over A's part = ∂V/∂θ_A
+///   area    S_A = ∫ n dS = ∂V/∂x_A, the vector area of A's part of the boundary of the intersection
+///   moment  M_A = ∫ (y−x_A)×n dS over the points y of A's part = ∂V/∂θ_A
 /// For B, S_B = −S_A, and M_B = −M_A + r×S_A about the centre of B, where r = x_B − x_A. V and M are in units of V_p, S
 /// in units of V_p^(2/3). With the contact energy E = V²/4 of the paper (Smith, Fisher, Alam 2011: E_αβ = Y V²/4V_p),
 /// the force on A is F_A = −(V/2) S_A and the torque on A is T_A = −(V/2) M_A.
@@ -42,23 +42,25 @@ struct Overlap {
 
 /// Computes the intersection of A and B, whose centres have the displacement r = x_B − x_A, from the closed loop C in
 /// which the two surfaces intersect. Notation: v → w is a segment of C, on face i of A and face j of B. Segments are
-/// oriented counter-clockwise, seen from outside A. Coordinates are relative to a vertex of the loop, so that no large
-/// terms cancel:
+/// oriented counter-clockwise, seen from outside A. Coordinates are relative to the point x_A + p, where p is
+/// ContactLoop::origin. The point is the midpoint of the centres. For very small or narrow contacts in double-double,
+/// it is a vertex of the loop:
 ///   S_A = ½ Σ_C v×w
-///   M_A = −½ Σ_C (w−v)(|v|² + v·w + |w|²)/3
+///   M_A = p×S_A − ½ Σ_C (w−v)(|v|² + v·w + |w|²)/3
 ///   V   = Σ_f ∫_f h n_P·n_f dA  over the faces f of the intersection, h the height over the least-penetrated plane P
 ///       = (1/6) Σ [t(left) − t(right)]  over its edges v → w, each with the faces to its left and right;
 ///         t(f) = n_P·((v−o)×(w−o)) (h_o+h_v+h_w), where o is a vertex of the face f
-/// Heights are interpolated between the distances of vertices from planes, which are stored in a table; they are never
-/// computed from coordinates. Heights are 0 on P and small near P. For a face-face contact of any depth, V is therefore
-/// as accurate as the table. If the loop is not closed, or if a vertex lies on a face plane within rounding errors,
-/// clipped_overlap() computes the result. The function never throws. The result is correct for the coordinates as
-/// given. If the coordinates are doubles, their rounding moves faces by 1e-16; at a depth of 1e-13 this causes a
-/// relative error of V of 3e-3. If a face of A or B separates the solids, `axis` is set to its normal, for later use
-/// with separates(). The overload with a DoubleDoubleVector r uses A, B and r in double-double. The relative errors of
-/// V, S and M are then at most 1e-12, also for very flat and very small contacts, unless the intersection is much
-/// longer than wide. This is the case if an edge lies in a face within a tilt as small as the depth. The coordinates
-/// along the edge then have rounding errors that are large relative to the width, and the bound is
+/// Heights are interpolated between the distances of vertices from planes, which are stored in a table. Only
+/// refine_small_corners() computes them from coordinates, in double-double. Heights are 0 on P and small near P. For a
+/// face-face contact of any depth, V is therefore as accurate as the table. If the loop is not closed, or if a vertex
+/// lies on a face plane within rounding errors, clipped_overlap() computes the result. The function never throws. The
+/// result is correct for the coordinates as given. If the coordinates are doubles, their rounding moves faces by 1e-16;
+/// at a depth of 1e-13 this causes a relative error of V of 3e-3. If a face of A or B separates the solids by more than
+/// rounding errors, `axis` is set to its normal, for later use with separates(). If only another axis separates them,
+/// `axis` is set to Kind::none. The overload with a DoubleDoubleVector r uses A, B and r in double-double. The relative
+/// errors of V, S and M are then at most 1e-12, also for very flat and very small contacts, unless the intersection is
+/// much longer than wide. This is the case if an edge is parallel to a face except for an angle as small as the depth.
+/// The coordinates along the edge then have rounding errors that are large relative to the width, and the bound is
 ///   1e-12 + 16 ε √(V_s/V), ε = 2.2e-16, V_s the volume of the smaller solid.
 /// The median of the errors is at most 1e-13. Without such narrow intersections, it is at most 1e-15 for V < 1e-8. The
 /// error of M is relative to |S| times the inradius.
@@ -95,8 +97,8 @@ struct OverlapHessian {
   Matrix6d aa, ab, bb;  ///< blocks for the coordinates of (A, A), (A, B) and (B, B)
 };
 
-/// Computes overlap() and the Hessian of V from the same loop. `hessian` is overwritten. It is zero if the loop is not
-/// closed, because V of a degenerate pair has no second derivative.
+/// Computes overlap() and the Hessian of V from the same loop. `hessian` is overwritten. It is zero if the solids are
+/// separated. It is also zero if clipped_overlap() computed V, because V of a degenerate pair has no second derivative.
 Overlap overlap_with_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis,
                              OverlapHessian& hessian);
 Overlap overlap_with_hessian(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r,

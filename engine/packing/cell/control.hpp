@@ -32,7 +32,7 @@ inline bool frees_volume(CellFreedom cell) { return cell == CellFreedom::isotrop
 struct CellControl {
   CellFreedom cell = CellFreedom::fixed;  ///< the free strains
   double pressure = 0;  ///< prescribed pressure p > 0, in units of Y; used only for `isotropic` and `free`
-  /// Deviator τ of the prescribed stress −p·1 + τ, symmetric and traceless, in units of Y; used only for `free`.
+  /// Deviatoric part τ of the prescribed stress −p·1 + τ, symmetric and traceless, in units of Y; used only for `free`.
   Eigen::Matrix3d deviator = Eigen::Matrix3d::Zero();
 };
 

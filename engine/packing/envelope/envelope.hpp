@@ -42,7 +42,7 @@ struct EnvelopeEvaluation {
   /// gradient with 6N entries, as in Evaluation::gradient; Enthalpy::of() appends the derivatives with respect to
   /// strains
   Eigen::VectorXd gradient;
-  std::vector<EnvelopeContact> contacts;  ///< sorted by (a, b, shift)
+  std::vector<EnvelopeContact> contacts;  ///< sorted by canonical_key() of their pairs (neighbours.hpp)
   /// Virial Σ (∂Φ/∂r) rᵀ over all contacts, with r = x_b − x_a. It corresponds to V_cell·stress of an Evaluation.
   Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
   double mean_force = 0;        ///< mean contact force |F| over the pairs in which A touches the ghost of B
@@ -54,9 +54,9 @@ struct EnvelopeEvaluation {
 /// Computes envelopes of packings. An object contains only caches, which never change a result.
 class EnvelopeEnergy {
  public:
-  /// Computes the envelope. `forces` contains the multipliers, sorted by (a, b, shift); pairs that
-  /// are not in it have μ = 0. If `only` is not empty, it has one flag per particle, and pairs without a flagged
-  /// particle are skipped. Throws std::invalid_argument if the cell is not legal for the particles (is_legal() in
+  /// Computes the envelope. `forces` contains the multipliers, sorted by canonical_key() of their pairs. Pairs that are
+  /// not in it have μ = 0. If `only` is not empty, it has one flag per particle, and pairs without a flagged particle
+  /// are skipped. Throws std::invalid_argument if the cell is not legal for the particles (is_legal() in
   /// cell/periodic_cell.hpp).
   EnvelopeEvaluation evaluate(const Packing& packing, std::span<const ContactMultiplier> forces,
                               const EnvelopeTerms& terms, std::span<const char> only = {});
@@ -77,7 +77,7 @@ class EnvelopeEnergy {
 };
 
 /// The part of `whole` that the pairs with a flagged particle contribute. `whole` must be an evaluation of all pairs.
-/// The result is the same as that of evaluate() with the flags `only`.
+/// The result is the same as that of evaluate() with the flags `only`, apart from `overlaps`.
 EnvelopeEvaluation part_of(const EnvelopeEvaluation& whole, std::span<const char> only);
 
 /// The evaluation of all pairs of a packing in which only flagged particles have moved since the evaluation `before`.

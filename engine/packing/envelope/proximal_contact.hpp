@@ -18,11 +18,11 @@ namespace isojam {
 
 /// Parameters of the Moreau envelope Φ of a contact,
 ///   Φ = min_w [ e(w) + ½ ρ |w|² − μ·w ].
-/// The multiplier μ is an estimate of the wrench, and ρ is an upper limit of the stiffness. If ∇_w e = μ at w = 0, then
-/// the minimum is at w = 0: the ghost coincides with B, and Φ = e. If the contact is much stiffer than ρ, Φ is
-/// approximately the energy of a spring with stiffness ρ, and its derivative is μ where the solids just touch. If the
-/// contact is much softer than ρ, Φ is approximately e (Moreau 1965; method of multipliers of Hestenes and Powell 1969
-/// in the form of Rockafellar 1973).
+/// The multiplier μ is an estimate of the wrench, and ρ is an upper limit of the stiffness of the envelope. If ∇_w e =
+/// μ at w = 0, then the minimum is at w = 0: the ghost coincides with B, and Φ = e. If the contact is much stiffer than
+/// ρ, Φ is approximately the energy of a spring with stiffness ρ, and the derivative of Φ is μ where A and B just
+/// touch. If the contact is much softer than ρ, Φ is approximately e (Moreau 1965; method of multipliers of Hestenes
+/// and Powell 1969 in the form of Rockafellar 1973).
 struct ProximalTerms {
   Vector6d multiplier = Vector6d::Zero();  ///< multiplier μ
   double stiffness = 0;                    ///< stiffness ρ > 0, in units of Y·V_p^(1/3)
@@ -37,7 +37,8 @@ struct ProximalTerms {
 struct ProximalContact {
   PairHessian ghost;  ///< second derivatives of e with respect to the coordinates of A and of the ghost, lab frame
   /// Cholesky factor L of the second derivatives of e(w) + ½ ρ |w|² − μ·w with respect to the coordinates of the ghost;
-  /// at w = 0 they are H_ww + ρ·1. If they are not positive definite, a multiple of the unit matrix is added first.
+  /// at w = 0 they are the second derivatives of e plus ρ·1. If they are not positive definite, a multiple of the unit
+  /// matrix is added first.
   Matrix6d root = Matrix6d::Identity();
   Vector6d gradient_a = Vector6d::Zero(), gradient_b = Vector6d::Zero();  ///< gradient of Φ, lab frame
   Vector6d shift = Vector6d::Zero();                                      ///< shift w at the minimum, body frame of B
@@ -53,7 +54,7 @@ struct ProximalContact {
   /// Second derivatives of Φ, computed by eliminating w from the second derivatives of e(w) + ½ ρ |w|² − μ·w. Their
   /// relative error is proportional to |w|.
   PairHessian curvature() const;
-  /// Second derivatives of Φ for another stiffness ρ and w = 0.
+  /// Second derivatives of Φ for another stiffness ρ, from the present second derivatives of e, as if w were 0.
   PairHessian curvature(double stiffness) const;
   /// Estimates Φ after the steps a and b of the coordinates (x, R·θ) of A and B, from the gradient and curvature().
   double predicted(const Vector6d& a, const Vector6d& b) const;
@@ -62,9 +63,9 @@ struct ProximalContact {
 };
 
 /// Computes the envelope of a contact of A and `solid_b`, where r = x_B − x_A and `b` gives the orientation of B. A
-/// must have been placed in double-double. `start` is an estimate of the shift. Newton's method finds w. Everything
-/// except the linear algebra is computed in double-double, because the depth of a flat contact near jamming is about
-/// 1e-10 V_p^(1/3).
+/// must have been placed in double-double. `start` is an estimate of the shift. Newton's method finds w. Positions,
+/// orientations and small distances between the solids are computed in double-double, because the depth of a flat
+/// contact near jamming is about 1e-10 V_p^(1/3). The shift, forces and Φ are doubles.
 ProximalContact proximal_contact(const PlacedSolid& a, const ConvexSolid& solid_b, const Pose& b,
                                  const DoubleDoubleVector& r, const ProximalTerms& terms, const Vector6d& start);
 

@@ -31,7 +31,7 @@ class Mixture {
   /// Several kinds; their fractions must sum to 1. If the name is empty, it is composed from the kinds.
   Mixture(std::vector<MixtureKind> kinds, std::string name);
 
-  /// True if all particles are identical.
+  /// True if there is one kind with a fixed size. All particles are then identical.
   bool is_one_solid() const;
   /// The solid of all particles; requires is_one_solid().
   const Solid& solid() const { return kinds_.front().solid; }

@@ -15,8 +15,9 @@ namespace isojam {
 /// preconditioner is an incomplete factorisation. If they do not converge soon, the complete factorisation follows.
 class DefiniteSolver {
  public:
-  /// Returns nullopt if the matrix is not positive definite, as far as the method notices. An iterative solution is
-  /// accurate to `tolerance`, by which √(r·P⁻¹r) has fallen; r is the residual vector and P the preconditioner.
+  /// Returns nullopt if the matrix is not positive definite, as far as the method notices. Conjugate gradients end when
+  /// √(r·P⁻¹r) is at most `tolerance` times its initial value. r is the residual vector and P the preconditioner. The
+  /// numbers of operations are added to `work`.
   std::optional<Eigen::VectorXd> solve(const BlockMatrix& matrix, double shift, const Eigen::VectorXd& b,
                                        double tolerance, MinimiseWork& work);
 

@@ -8,7 +8,7 @@
 // two particles. Each operation then reads its matrices sequentially. Entry (i, j) of a matrix with c columns is at the
 // index
 //   12·c·⌊i/12⌋ + 12·j + i mod 12.
-// A symmetric matrix is stored as its lower half, panel by panel; panel p has 12·(p + 1) columns. If the number of
+// If a symmetric matrix is stored as its lower half, panel p has only 12·(p + 1) columns. If the number of
 // particles is odd, the second half of the last panel is unused. This half must be zero, and remains zero. The
 // arguments `count` are numbers of panels. All other sizes are numbers of doubles.
 
@@ -30,8 +30,8 @@ void for_each(int count, Threads threads, const Run& run) {
   for (int k = 0; k < count; ++k) run(k);
 }
 
-/// Computes the Cholesky factorisation A = L Lᵀ. A has `width` rows and columns, and `width` is a multiple of 6. The
-/// lower half of A is replaced by L and the upper half by zero, and 1/L_kk is written to `reciprocals`. The matrix B,
+/// Computes the Cholesky factorisation A = L Lᵀ. A has `width` rows and columns, and `width` is a multiple of 6. Only
+/// the lower half of A is read. It is replaced by L, and 1/L_kk is written to `reciprocals`. The matrix B,
 /// which has `count` panels of `width` columns, is replaced by B L⁻ᵀ. Returns false if a pivot is not a positive
 /// number.
 bool factorise(double* a, int width, double* reciprocals, double* b, int count, Threads threads);

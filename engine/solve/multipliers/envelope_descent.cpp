@@ -43,7 +43,7 @@ std::optional<EnvelopeState> EnvelopeDescent::step(const EnvelopeState& here, do
     return std::nullopt;
   }
   for (double more = 2; !must_stop(); more *= 2) {
-    const ModelStep step = model->step(shift_, longest);
+    const KrylovStep step = model->step(shift_, longest);
     EnvelopeState there = evaluator_.at(moved(here.packing, step.step), forces_after(here, step.step));
     bool relaxed = false;
     if (here.value.value - there.value.value < relaxed_below * step.predicted_decrease)
@@ -59,7 +59,7 @@ std::optional<EnvelopeState> EnvelopeDescent::step(const EnvelopeState& here, do
   return std::nullopt;
 }
 
-void EnvelopeDescent::adapt(const EnvelopeState& from, const EnvelopeState& to, const ModelStep& step, bool relaxed,
+void EnvelopeDescent::adapt(const EnvelopeState& from, const EnvelopeState& to, const KrylovStep& step, bool relaxed,
                             bool repeated) {
   const bool resolved = step.predicted_decrease > from.value.noise;
   const double ratio = resolved ? (from.value.value - to.value.value) / step.predicted_decrease : 1;

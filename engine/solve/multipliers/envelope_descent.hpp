@@ -8,21 +8,23 @@
 
 namespace isojam {
 
-/// Minimises Φ by Levenberg–Marquardt steps in Krylov spaces (KrylovModel). If contacts form or break, the model of a
+/// Minimises the envelope Φ (EnvelopeEvaluation) by Levenberg–Marquardt steps in Krylov spaces (KrylovModel). If
+/// contacts form or break, the model of a
 /// step is wrong for a few pairs. The particles of these pairs are relaxed separately before the step is accepted or
 /// rejected (local_relaxation.hpp). This costs little, and few steps are then rejected.
 class EnvelopeDescent {
  public:
   EnvelopeDescent(EnvelopeEvaluator& evaluator, MinimiseWork& work);
 
-  /// Sets the stiffness k₀ = f/Δφ of soft contacts. The shift λ keeps its ratio to k₀.
+  /// Sets the stiffness k₀ = f/Δφ of soft contacts, where f is the mean contact force. The Levenberg–Marquardt shift λ
+  /// keeps its ratio to k₀.
   void set_stiffness(double k0);
   double stiffness() const { return k0_; }  ///< k₀
   /// True if λ has become so large that further steps would not move the particles.
   bool failed() const;
 
   /// Makes one step from `here`, in which no particle moves farther than `longest`. Increases the shift until Φ
-  /// decreases enough. Returns nullopt if must_stop() is true before that.
+  /// decreases enough. Returns nullopt if must_stop() is true before that, or if the second derivatives are not finite.
   std::optional<EnvelopeState> step(const EnvelopeState& here, double longest, const std::function<bool()>& must_stop);
 
  private:

@@ -11,7 +11,8 @@
 
 namespace isojam {
 
-/// A packing and the evaluation of its envelope.
+/// A packing and the evaluation of its envelope Φ (packing/envelope/envelope.hpp). For ρ, μ, e and the shifts w, see
+/// packing/envelope/proximal_contact.hpp.
 struct EnvelopeState {
   Packing packing;
   EnvelopeEvaluation value;

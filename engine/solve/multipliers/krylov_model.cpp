@@ -76,8 +76,8 @@ Eigen::VectorXd KrylovModel::step(double shift) const {
   return basis_.leftCols(vectors()) * (eigenvectors_ * along);
 }
 
-ModelStep KrylovModel::step(double shift, double longest) const {
-  ModelStep found{step(shift), shift, 0};
+KrylovStep KrylovModel::step(double shift, double longest) const {
+  KrylovStep found{step(shift), shift, 0};
   while (largest_displacement(found.step) > longest) found.shift *= 2, found.step = step(found.shift);
   const Eigen::ArrayXd inverse = 1 / (eigenvalues_.array().abs() + found.shift);
   found.predicted_decrease = (slopes_.array().square() * inverse * (1 - eigenvalues_.array() * inverse / 2)).sum();

@@ -12,14 +12,15 @@
 namespace isojam {
 
 /// A step, and the decrease of the function that its model predicts.
-struct ModelStep {
+struct KrylovStep {
   Eigen::VectorXd step;
   double shift = 0;               ///< Levenberg–Marquardt shift λ of the step
   double predicted_decrease = 0;  ///< −g·s − ½ s·M s
 };
 
-/// Quadratic model g·s + ½ s·M s of a function, projected onto a Krylov space. The space has the orthonormal basis Q
-/// that the vectors P⁻¹g, P⁻¹M q₁, P⁻¹M q₂, … span, where P is a preconditioner. With the eigenvalues E and
+/// Quadratic model g·s + ½ s·M s of a function, projected onto a Krylov space. The vectors P⁻¹g, P⁻¹M q₁, P⁻¹M q₂, …
+/// span the space, where P is a preconditioner. The orthonormal basis of the space is Q = (q₁, q₂, …). With the
+/// eigenvalues E and
 /// eigenvectors U of Qᵀ M Q, the step for a shift λ is
 ///   s = −Q U (|E| + λ)⁻¹ Uᵀ Qᵀ g.
 /// One space therefore gives the steps for all shifts. M may be indefinite: since |E| replaces E, the step then leads
@@ -42,7 +43,7 @@ class KrylovModel {
   /// Lowest eigenvalue of Qᵀ M Q, an upper limit of the lowest eigenvalue of M.
   double lowest() const { return vectors() > 0 ? eigenvalues_[0] : 0; }
   /// The step for the shift λ. If it would move a particle farther than `longest`, λ is doubled until it does not.
-  ModelStep step(double shift, double longest) const;
+  KrylovStep step(double shift, double longest) const;
 
  private:
   void project(const Eigen::VectorXd& gradient, int vectors);
@@ -59,7 +60,8 @@ class KrylovModel {
 
 /// Builds Krylov models for a sequence of similar matrices. It chooses the shift λ_P of the preconditioner
 /// P ≈ M + λ_P·1. If λ_P is too small, the factorisation fails; if it is too large, the space needs more vectors. λ_P
-/// decreases slowly from model to model, but stays above λ and above the magnitude of the last negative eigenvalue.
+/// decreases slowly from model to model. It is at least λ, and at least three times the magnitude of the last negative
+/// eigenvalue. If the factorisations are complete, λ_P begins at λ.
 /// Soft modes can remain outside the largest space if P is an incomplete factorisation. The factorisations of the next
 /// models are then complete, until a matrix is indefinite.
 class KrylovModels {
@@ -67,7 +69,7 @@ class KrylovModels {
   /// `shift` is the first λ_P.
   explicit KrylovModels(double shift) : shift_(shift) {}
 
-  /// Tells that all matrices from now on are larger by this factor.
+  /// Adapts λ_P to matrices that are larger by this factor from now on.
   void scale(double factor) { shift_ *= factor, negative_ *= factor; }
   /// Magnitude of the lowest eigenvalue in the last space if it was negative, otherwise 0.
   double negative() const { return negative_; }

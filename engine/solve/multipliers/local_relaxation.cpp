@@ -110,7 +110,7 @@ bool relax_locally(const std::vector<char>& flags, double shift, double predicte
       model = models.model(matrix, part.of(here.value.gradient), shift, local);
       if (!model) break;
     }
-    const ModelStep step = model->step(shift, longest);
+    const KrylovStep step = model->step(shift, longest);
     const Eigen::VectorXd whole = part.embedded(step.step);
     EnvelopeState there = evaluator.at(moved(here.packing, whole), forces_after(here, whole), flags);
     const double actual = here.value.value - there.value.value;

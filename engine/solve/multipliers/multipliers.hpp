@@ -14,6 +14,8 @@ namespace isojam {
 /// of the energy if is_equilibrium(summary) is true for the returned summary. The function uses the options `control`,
 /// `residual`, `unjammed_energy` and `max_evaluations`. `max_evaluations` limits the number of evaluations of the
 /// energy and of the envelope together. The envelope is the function that this method minimises instead of the energy.
+/// If this method finds no equilibrium, Newton's method may follow. It makes at most about 500 more evaluations, and
+/// also uses the option `energy_change`.
 MinimiseSummary follow_equilibrium(Packing& packing, double density, double distance, PackingEnergy& energy,
                                    const MinimiseOptions& options, std::stop_token stop = {});
 

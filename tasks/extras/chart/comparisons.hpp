@@ -31,14 +31,14 @@ void compare_minimisers(std::span<const JammedSolid> jammed, const Measuring& me
 /// the analytic Hessian, so its error is the bound on the rounding errors of its eigenvalues.
 void compare_hessians(std::span<const TaskEquilibria> tasks, const Measuring& measuring, ChartFamily& family);
 
-/// Compares methods for the lowest modes: the shift-invert Lanczos method with several shifts and dimensions, and the
-/// Lanczos method without inversion. The reference is the dense solver. The error is the largest relative error of an
-/// eigenvalue.
+/// Compares methods for the lowest modes: the shift-invert Lanczos method with several shifts and dimensions of the
+/// Krylov space, and the Lanczos method without inversion. The reference is the dense solver. The error is the largest
+/// relative error of an eigenvalue.
 void compare_modes(std::span<const TaskEquilibria> tasks, const Measuring& measuring, ChartFamily& family);
 
-/// Compares methods for overlaps, for several classes of pairs: the contact loop in double and in double-double,
-/// clipping in quadruple precision, and simple clipping in double. The reference has 50 digits. The error is the
-/// relative error of V. Points of methods that compute S also contain its error.
+/// Compares methods for overlaps, for several classes of pairs: the contact loop in double and in double-double (see
+/// overlap.hpp), clipping in quadruple precision, and simple clipping in double. The reference has 50 digits. The error
+/// is the relative error of V. Points of methods that compute S also contain its error.
 void compare_overlaps(const Measuring& measuring, ChartFamily& family);
 
 /// Compares settings of the protocol. The time is the CPU time of all replicates. The error is the absolute difference

@@ -54,17 +54,17 @@ struct ChartConfig {
   int particles = 64;
   int packings = 2;                                ///< number of packings of each solid
   std::vector<double> distances{0.1, 0.03, 0.01};  ///< distances Δφ of the equilibria that are compared
-  double fit_window = 0.05;  ///< φ_J is fitted to states with Δφ up to this value; methods are compared by this φ_J
-  /// residuals that every minimiser except for the paper's stopping rule has to reach
+  double fit_window = 0.05;  ///< in the family `bias`, φ_J is fitted to states with Δφ below this value
+  /// residuals that every minimiser has to reach; with the paper's stopping rule, energy_changes applies instead
   std::vector<double> tolerances{1e-3, 1e-6, 1e-9};
   /// relative energy changes at which the paper's stopping rule ends a minimisation
   std::vector<double> energy_changes{1e-12};
   /// steps of central differences
   std::vector<double> difference_steps{1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-11};
-  std::vector<double> shifts{1e-6, 1e-9, 1e-11, 1e-13};  ///< shifts −σ/λ_max of the shift-invert method
+  std::vector<double> shifts{1e-6, 1e-9, 1e-11, 1e-13};  ///< shifts σ as −σ/λ_max, with the largest eigenvalue λ_max
   std::vector<int> subspaces{120, 200};                  ///< dimensions of the Krylov space of Lanczos methods
   int pairs = 40;                                        ///< number of pairs for each solid and class of pairs
-  int repetitions = 3;                                   ///< number of repetitions of each measurement of time
+  int repetitions = 3;                                   ///< largest number of repetitions of a measurement of time
   long max_evaluations = 4000;                           ///< largest number of evaluations in one minimisation
   /// largest number of evaluations in one minimisation with the paper's stopping rule, which needs more of them
   long rule_evaluations = 20000;
@@ -74,8 +74,8 @@ struct ChartConfig {
   GrowthConfig growth;
 };
 
-/// The configuration of a chart that takes an hour. It has larger packings and more settings. It has all named solids
-/// except cubes, whose constraints are redundant.
+/// The configuration of a chart that takes an hour. It has larger packings and more settings. It has all Platonic
+/// solids except cubes, whose constraints are redundant.
 ChartConfig full_chart_config();
 
 /// Reads a configuration. A key that is missing has the default value in ChartConfig. Throws InputError if a key is

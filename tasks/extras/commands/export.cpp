@@ -78,8 +78,7 @@ bool has_packing(const ExportArguments& arguments, const RecordedReplicate& held
 void add_export(CLI::App& app, Session& session) {
   ExportArguments* arguments = nullptr;
   auto options = add_command(app, session, "export",
-                             "Export packings to GSD, VTP or XYZ files, or contacts, replicates or states as a "
-                             "table",
+                             "Export packings (GSD, VTP, XYZ), or a table of contacts, replicates or states",
                              export_results, arguments);
   options.results_directory(arguments->directory);
   options.text("replicate", arguments->replicate, "Name of the replicate (its file in records/ without .json), or all",
@@ -87,12 +86,12 @@ void add_export(CLI::App& app, Session& session) {
   options.choice("--format", arguments->what, "Format of the packings, or rows of the table", Options::Need::required);
   options.text(
       "-o,--output", arguments->output,
-      "Output file; for packings of all replicates a directory; tables go to standard output by default (CSV, or "
-      "JSON lines if the name ends in .jsonl)",
+      "Packings: output file, or a directory for all replicates. Tables: output file (default: standard output); JSON "
+      "lines if its name ends in .jsonl, otherwise CSV",
       "FILE");
   options.flag("--path", arguments->path, "Export all states of the decompression (needs keep_path in the manifest)");
   options.flag("--contacts", arguments->contacts,
-               "Also export the contact network: as bonds in GSD, as a second file of lines with VTP");
+               "Also export the contact network: as bonds in GSD, or as line segments in a second VTP file");
 }
 
 }  // namespace isojam

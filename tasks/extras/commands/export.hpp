@@ -28,10 +28,10 @@ struct ExportArguments {
   std::string replicate;  ///< name of a replicate; "all" for every recorded replicate
   Exported what = Exported::gsd;
   /// Output path.
-  /// - Packing of one replicate: the file. It must not be empty. Some formats write more files beside it, see
+  /// - Packing of one replicate: the file. The path must not be empty. Some formats write more files beside it, see
   ///   exported_files().
-  /// - Packings of all replicates: the directory for the files <name>.<extension>. It must not be empty, and is created
-  ///   if it is missing.
+  /// - Packings of all replicates: the directory for the files <name>.<extension>, which is created if it is missing.
+  ///   The path must not be empty.
   /// - Table: the file; empty for standard output.
   std::string output;
   bool path = false;      ///< export all states of the decompression; otherwise only the nearest state
@@ -40,16 +40,17 @@ struct ExportArguments {
   bool all() const { return replicate == "all"; }
 };
 
-/// Names of the replicates to export. If the user gave a name, throws FileError unless a record has this name. With
+/// Names of the replicates to export. If the user gave a name, throws UsageError unless a record has this name. With
 /// this check, text such as "../x" cannot become part of a path.
 std::vector<std::string> chosen_names(const ExportArguments& arguments);
 
-/// Reads a record with read_record(). If there is a plan and the record does not belong to it, throws InputError.
+/// Reads a record with read_record(). If there is a plan and the record does not belong to it, throws InputError. A
+/// failed record whose settings have changed since is accepted, see is_superseded().
 RecordedReplicate own_record(const ExportArguments& arguments, const std::optional<Plan>& plan,
                              const std::string& name);
 
 /// True if the replicate did not fail. For a failed replicate, prints a warning and returns false if all replicates are
-/// exported. If the user gave the name of a failed replicate, throws FileError.
+/// exported. If the user gave the name of a failed replicate, throws UsageError.
 bool has_packing(const ExportArguments& arguments, const RecordedReplicate& held, Console& console);
 
 /// Writes files with packings for other programs, and prints the paths of these files to standard output.

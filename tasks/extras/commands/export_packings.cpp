@@ -74,6 +74,8 @@ ExitCode export_packings(const ExportArguments& arguments, Console& console) {
     return ExitCode::done;
   }
   std::error_code error;
+  if (fs::exists(arguments.output, error) && !fs::is_directory(arguments.output, error))
+    throw UsageError(arguments.output + " is a file; give a directory for the files of all replicates");
   fs::create_directories(arguments.output, error);
   if (error) throw FileError::of_error(arguments.output, "cannot be created", error);
   for (const auto& name : names) {

@@ -31,7 +31,7 @@ struct ExportedFile {
 ///   no Δφ, it is the index of the frame.
 ///
 /// For vtp, frames with a contact network have a second set of files, whose names end in -contacts before the
-/// extension. Throws FileError if `output` for xyz has the extension .obj.
+/// extension. Throws UsageError if `output` for xyz has the extension .obj.
 std::vector<ExportedFile> exported_files(std::span<const ExportFrame> frames, ExportFormat format, bool collection,
                                          const std::filesystem::path& output);
 

@@ -17,8 +17,8 @@ struct StoredState {
 };
 
 /// Reads the nearest state of a replicate. If `path` is true, reads all states of its path, in order. The replicate
-/// must not have failed. Throws FileError if a file is missing, for example because the path was not kept, or cannot be
-/// read at the moment. Throws InputError if a file is damaged or belongs to another record.
+/// must not have failed. Throws InputError if a file is missing, for example because the path was not kept, or if it is
+/// damaged or belongs to another record. Throws FileError if a file cannot be read at the moment.
 std::vector<StoredState> stored_states(const std::filesystem::path& directory, const RecordedReplicate& held,
                                        bool path);
 

@@ -17,9 +17,10 @@ namespace isojam {
 ///   paths, so that it can add them only for the nearest states
 /// - columns: {"name", "group", "unit", "latex"} of all quantities, in the order of tables
 /// - parameters: names of the swept parameters, and for each the heading of its column
-/// - rows: the rows of tables.json without goals and differences. Each also has "label", "paper" (φ_J of Table I, or
-///   null), "scaling" (power laws of ⟨ω⟩) and "angles" (distributions of alignment angles). Failed and excluded
-///   replicates do not contribute to the last two.
+/// - rows: the rows of tables.json. Each also has "label", "paper" (φ_J of Table I, or null), "scaling" (power laws of
+///   ⟨ω⟩), "angles" (distributions of alignment angles) and "distributions" (see pooled_distributions()). Failed and
+///   excluded replicates do not contribute to the last three.
+/// - base: title of the table of paired differences; empty if there is no base
 /// - csv, latex: the table as CSV and as LaTeX
 /// - replicates: one object for each replicate, with "name", "row", "status", "flags", "excluded", "failure", "states",
 ///   "line" (the line that was extrapolated to φ_J) and other values

@@ -36,8 +36,8 @@ std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& 
 /// - For each particle: its position in the cell, orientation (w, x, y, z), number of contacts, local Q6, and cluster.
 /// - The largest cluster, see unwrapped_cluster().
 /// - Six integers for each contact, one contact after another: a, b, the force in thousandths of the largest force, and
-///   the point of application relative to the centre of a, in hundredths (lab frame). The largest force is given in
-///   units of Y·V_p^(2/3).
+///   the point where the line of action leaves a. The point is relative to the centre of a, in hundredths of V_p^(1/3)
+///   (lab frame). The largest force is given in units of Y·V_p^(2/3).
 /// - The modes at both ends of the spectrum. Their number at each end is `modes`, which may be 0. A mode has its
 ///   frequency ω and the displacements (x, θ) of each particle in the lab frame. These are scaled so that the component
 ///   with the largest magnitude is ±1. If the eigenvalue is not positive, ω is null.

@@ -108,7 +108,7 @@ TEST(KrylovModel, NoParticleMovesFartherThanAllowed) {
   const System system = random_system(40, 2.0, 4);
   const KrylovModel model(system.matrix, inverse_of(system.preconditioner), system.gradient, 1e-3);
   for (const double longest : {1.0, 1e-2, 1e-4}) {
-    const ModelStep found = model.step(1e-3, longest);
+    const KrylovStep found = model.step(1e-3, longest);
     double moved = 0;
     for (int k = 0; k < 40; ++k)
       moved = std::max({moved, found.step.segment<3>(6 * k).norm(), found.step.segment<3>(6 * k + 3).norm()});

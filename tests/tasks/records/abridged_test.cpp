@@ -60,9 +60,10 @@ TEST(Abridged, KeepsWhatTablesNeed) {
   const auto bins = Json::json_pointer("/states/0/contacts/angle_bins");
   EXPECT_EQ(quick.record.at(bins), whole.record.at(bins));
   EXPECT_TRUE(quick.summary.angles);
-  const auto brief = read_record_without_angles(directory / "r", name);
+  EXPECT_FALSE(quick.summary.states.empty());
+  const auto brief = read_record_without_states(directory / "r", name);
   EXPECT_EQ(brief.summary.values, whole.summary.values);
-  EXPECT_FALSE(brief.record.contains(bins));
+  EXPECT_TRUE(brief.summary.states.empty());
 }
 
 TEST(Abridged, ReadsNumbersLikeAParser) {
@@ -86,7 +87,7 @@ TEST(Abridged, ReadsNumbersLikeAParser) {
   document["spec"] = {{"list", {1, 2}}};
   document["path"] = {1, 2, 3};
   const auto text = sealed(document);
-  const auto read = abridged(text, Angles::keep);
+  const auto read = abridged(text, States::keep);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->result_digest, result_digest(document));
   auto expected = parse_sealed(text, "document");
@@ -101,14 +102,14 @@ TEST(Abridged, ReadsNumbersLikeAParser) {
 
 TEST(Abridged, RejectsChangedTexts) {
   const auto text = sealed(make_record(made_up()));
-  ASSERT_TRUE(abridged(text, Angles::keep));
+  ASSERT_TRUE(abridged(text, States::keep));
   for (std::size_t at = 0; at < text.size(); at += 3) {
     auto changed = text;
     changed[at] = static_cast<char>(changed[at] ^ 1);
-    EXPECT_FALSE(abridged(changed, Angles::keep)) << at;
-    EXPECT_FALSE(abridged(text.substr(0, at), Angles::keep)) << at;
+    EXPECT_FALSE(abridged(changed, States::keep)) << at;
+    EXPECT_FALSE(abridged(text.substr(0, at), States::keep)) << at;
   }
-  EXPECT_FALSE(abridged(text + "x", Angles::keep));
+  EXPECT_FALSE(abridged(text + "x", States::keep));
 }
 
 TEST(Abridged, LeavesUnusualTextsToTheParser) {
@@ -117,7 +118,7 @@ TEST(Abridged, LeavesUnusualTextsToTheParser) {
   for (const auto& [key, value] : {std::pair<std::string, Json>{"a", "\"quoted\""}, {"q\"", 1}, {"a", nested}}) {
     Json document{{"schema", "x"}};
     document[key] = value;
-    EXPECT_FALSE(abridged(sealed(document), Angles::keep)) << document;
+    EXPECT_FALSE(abridged(sealed(document), States::keep)) << document;
   }
   const test::TemporaryDirectory directory;
   auto outcome = made_up();

@@ -176,7 +176,7 @@ TEST(Store, RejectsADirectoryOfAnotherManifest) {
     const auto before = files_below(directory.path());
     const auto said = refusal_of(manifest_with(8));
     EXPECT_NE(said.find(shows), std::string::npos) << said;
-    EXPECT_NE(said.find("belongs to another manifest"), std::string::npos) << said;
+    EXPECT_NE(said.find("contains results of another manifest"), std::string::npos) << said;
     EXPECT_EQ(files_below(directory.path()), before);
     std::filesystem::remove(directory / "manifest.json");
   }

@@ -241,7 +241,7 @@ TEST_F(Adding, ARunRecomputesRecordsThatLackAMeasure) {
   fs::remove(path);
   const auto measured = measure({});
   EXPECT_EQ(measured.exit_code, 0);
-  EXPECT_NE(measured.err.find("1 of 3 records without the states of the decompression"), std::string::npos)
+  EXPECT_NE(measured.err.find("for 1 of 3 records, the states of the decompression were not saved"), std::string::npos)
       << measured.err;
   const auto run = isojam({"run", "few.json", "-o", "few"}, here_.path());
   EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -361,7 +361,7 @@ TEST_F(Adding, ReportsErrorsBeforeAnythingIsWritten) {
   const std::string seed = "\"seed\": 7";
   text.replace(text.find(seed), seed.size(), "\"seed\": 8");
   test::write_text(theirs, test::sealed_again(text));
-  untouched({"--add", "rigidity"}, 65, "belongs to another manifest");
+  untouched({"--add", "rigidity"}, 65, "contains results of another manifest");
 }
 
 }  // namespace

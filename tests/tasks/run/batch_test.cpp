@@ -252,7 +252,7 @@ TEST_F(Batch, ADirectoryOfAnotherManifestIsNotChanged) {
   const auto refused = run();
   EXPECT_EQ(refused.exit_code, 65);
   EXPECT_EQ(refused.out, "");
-  EXPECT_NE(refused.err.find("results/manifest.json: belongs to another manifest"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("results: contains results of another manifest"), std::string::npos) << refused.err;
   EXPECT_EQ(files_below(here_ / "results"), before);
 }
 

@@ -124,7 +124,7 @@ TEST_F(Growth, RefusesEveryOtherChange) {
   changed = large();
   changed["sweep"]["step_fraction"] = {0.3, 0.4};
   changed["protocol"].erase("step_fraction");
-  refused(changed, "belongs to another manifest");
+  refused(changed, "contains results of another manifest");
   changed = large();
   changed["sweep"]["particles"] = {28};
   refused(changed, "/sweep/particles");

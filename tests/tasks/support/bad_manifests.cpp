@@ -161,7 +161,7 @@ std::vector<BadManifest> inconsistent() {
   return {
       {"too few particles", with("/sweep/particles", {64, 5}), "/sweep/particles/1", "use at least", false},
       {"a shear that ends before its step", with("/shear", {{"step", 0.1}, {"until", 0.05}}), "/shear/until",
-       "1 to 10000 steps", false},
+       "until 0.05 is less than step 0.1", false},
       {"too few at a swept density", crowded.dump(), "/sweep/particles/1", "max_density 2", false},
       {"swept and fixed", both.dump(), "/protocol/target_energy", "set it either here or in /sweep/target_energy",
        false},

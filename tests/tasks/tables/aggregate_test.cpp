@@ -216,6 +216,19 @@ TEST(Aggregate, RejectsOtherSettings) {
   EXPECT_NE(said.find("/protocol/step_fraction: differs"), std::string::npos) << said;
 }
 
+TEST(Aggregate, RejectsOtherShearStrainsOnlyIfTheyWereMeasured) {
+  const auto with = [](double until, bool measured) {
+    const auto specs = plan([&](Json& manifest) {
+      manifest["shear"] = {{"step", 0.01}, {"until", until}};
+      if (measured) manifest["measure"].push_back("shear");
+    });
+    return summary_of(test::made_up_outcome(specs[3]));
+  };
+  const auto said = refusal([&] { aggregate(std::vector{with(0.1, true), with(0.2, true)}); });
+  EXPECT_NE(said.find("/shear/until: differs"), std::string::npos) << said;
+  EXPECT_NO_THROW(aggregate(std::vector{with(0.1, false), with(0.2, false)}));
+}
+
 TEST(Aggregate, RejectsTwoResultsOfOneReplicate) {
   auto records = summaries();
   auto outcome = test::made_up_outcome(plan()[2]);

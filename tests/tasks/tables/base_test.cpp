@@ -344,7 +344,7 @@ TEST_F(BaseTest, AnInvalidBaseIsRejectedWithTheAllowedValues) {
   const std::vector<std::pair<std::string, std::string>> wrong{
       {"step_fracton=0.35", "did you mean \"step_fraction\"?"},
       {"approach=0.35", "was renamed; use \"step_fraction\""},
-      {"solid=cube", "unknown parameter \"solid\"; expected none or one of \"initial_density\""},
+      {"solid=cube", "unknown parameter \"solid\"; expected \"none\" or one of \"initial_density\""},
       {"step_fraction", "PARAMETER=VALUE separated by commas"},
       {"", "PARAMETER=VALUE separated by commas"},
       {"step_fraction=0.35,", "PARAMETER=VALUE separated by commas"},

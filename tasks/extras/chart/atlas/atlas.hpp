@@ -42,22 +42,23 @@ struct AtlasRow {
 inline constexpr double atlas_overlap_tolerance = 1e-6;
 
 /// Tests of overlaps by three methods: the contact loop in double-double, which isojam uses near jamming; the contact
-/// loop in double, which it uses far from jamming; and clipping of every face in double. The references are closed
-/// forms, or clipping in quadruple precision. Takes seconds.
+/// loop in double, which it uses far from jamming; and clipping of every face in double. The contact loop is the closed
+/// line in which the surfaces intersect, see overlap.hpp. The references are closed forms, or clipping in quadruple
+/// precision. Takes seconds.
 std::vector<AtlasRow> overlap_atlas();
 
 /// Tests of energies. In the smallest cells, the energy is compared with a sum over all images. It must not change if
 /// the packing is rotated, translated or renumbered, or if units change or particles are exchanged. Takes seconds.
 std::vector<AtlasRow> packing_atlas();
 
-/// Tests of minimisers that start from strained states, from an equilibrium and from an unjammed state. Tests of the
-/// protocol with cubes and with both kinds of initial configurations. Takes a quarter of a minute. After a stop
-/// request, returns the complete rows.
+/// Tests of minimisers that start from strained states, from an equilibrium, from a packing with a vacancy and from an
+/// unjammed state. Tests of the protocol with cubes, and with octahedra that start above or below φ_J. Takes a
+/// quarter of a minute. After a stop request, returns the complete rows.
 std::vector<AtlasRow> minimiser_atlas(const AtlasStates& states, const std::stop_token& stop = {});
 
-/// Tests of Hessians by comparison with central differences. Tests of the softest modes by the shift-invert method, the
-/// simple Lanczos method and the dense solver, for increasing condition numbers. Takes a quarter of a minute. After a
-/// stop request, returns the complete rows.
+/// Tests of the softest modes by the shift-invert method and by the Lanczos method without inversion, for increasing
+/// condition numbers. The reference is the dense solver. Tests of Hessians by central differences with several steps.
+/// The reference is the analytic Hessian. Takes a quarter of a minute. After a stop request, returns the complete rows.
 std::vector<AtlasRow> modes_atlas(const AtlasStates& states, const std::stop_token& stop = {});
 
 struct AtlasOptions {

@@ -15,7 +15,7 @@ struct AtlasRun {
   /// true if isojam uses this method in this regime
   bool standard = false;
   AtlasVerdict verdict = AtlasVerdict::holds;
-  /// settings of the cells, such as "1e-04 … 1e-08, 1e-12"; "…" stands for the cells between two cells of the atlas
+  /// settings of the cells, such as "1e-04 … 1e-08, 1e-12"; "…" stands for all cells between these two settings
   std::string settings;
   std::string figure;  ///< measured value in the first cell
   std::string reason;  ///< reason in the first cell

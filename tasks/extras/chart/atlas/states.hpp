@@ -7,8 +7,9 @@
 
 namespace isojam {
 
-/// States of a packing of 45 octahedra, decompressed to Δφ = 1.3e-3. N = 45 is the smallest number that the cell
-/// allows. The condition numbers of the Hessians of these states are between 1e3 and 6e12.
+/// States of a packing of 45 octahedra, decompressed to Δφ = 1.3e-3. With fewer particles, a particle could touch two
+/// images of another one at max_density. The condition numbers of the Hessians of these states are between 1e3 and
+/// 6e12.
 class AtlasStates {
  public:
   /// Jams the packing. Throws std::runtime_error if no φ_J is found, which would be an error of the protocol.
