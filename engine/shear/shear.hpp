@@ -41,8 +41,8 @@ struct ShearOptions {
   /// change of γ in a step; with stress control, change of s/p₀ in a step, where p₀ is the pressure of the initial
   /// packing
   double step = 1e-3;
-  double until = 0.02;       ///< final value of γ; with stress control, final value of s/p₀
-  bool back = false;         ///< true: from `until`, γ or s/p₀ goes back to 0 in the same steps
+  double until = 0.02;  ///< final value of γ; with stress control, final value of s/p₀
+  bool back = false;    ///< true: from `until`, γ or s/p₀ goes back to 0 in the same steps
   /// Options of the minimisations, with the default `control`. The method of multipliers follows each step for any
   /// value of `method`.
   MinimiseOptions minimise;

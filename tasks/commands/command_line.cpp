@@ -23,7 +23,8 @@ std::vector<ExitCodeDescription> exit_codes() {
   return {{ExitCode::done, "no error"},
           {ExitCode::some_failed,
            "a replicate failed; a resource ran out (memory, threads, disk); or a file could not be read or written"},
-          {ExitCode::usage, "wrong command line; or a path in it is missing or of the wrong kind; or the replicate has no packing"},
+          {ExitCode::usage,
+           "wrong command line; or a path in it is missing or of the wrong kind; or the replicate has no packing"},
           {ExitCode::bad_input, "error in a manifest, damaged or missing results, or directory of another manifest"},
           {ExitCode::interrupted, "interrupted; repeat the command to resume"}};
 }
@@ -39,8 +40,9 @@ void add_console_options(Options options, ConsoleOptions& console) {
   options.flag("--quiet", console.quiet, "Print no messages except errors (tables are still printed)");
   options.flag("-v,--verbose", console.verbose, "Print a line for each finished replicate");
   options.choice("--color", console.colour, "Use colour on stderr");
-  options.choice("--messages", console.form,
-                 "Set the format of messages on stderr; with json, each line is one object, except errors in the command line");
+  options.choice(
+      "--messages", console.form,
+      "Set the format of messages on stderr; with json, each line is one object, except errors in the command line");
 }
 
 void add_option_names(const CLI::App& app, std::vector<std::string>& names) {

@@ -113,8 +113,8 @@ ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
 
 void add_measure(CLI::App& app, Session& session) {
   MeasureArguments* arguments = nullptr;
-  auto options = add_command(app, session, "measure", "Add measures to the records of a study",
-                             measure_stored, arguments);
+  auto options =
+      add_command(app, session, "measure", "Add measures to the records of a study", measure_stored, arguments);
   options.results_directory(arguments->directory);
   options.parsed(
       "--add", [arguments](const std::string& text) { return read_measures(text, arguments->add); }, [] {},

@@ -226,7 +226,8 @@ void add_run(CLI::App& app, Session& session) {
   options.positive(
       "--memory", arguments->memory_gib,
       "Run only as many replicates at the same time as fit into this memory, but at least one (default: the "
-      "available memory)", "GIB");
+      "available memory)",
+      "GIB");
   options.flag("--dry-run", arguments->dry_run, "Print the plan and its estimated cost, and run nothing");
 }
 

@@ -71,8 +71,8 @@ class Builder final : public nlohmann::json_sax<Json> {
     if (!in_string && is_comment(text_.substr(std::min(position == 0 ? 0 : position - 1, text_.size()))))
       refuse(file, "JSON has no comments", "", "remove the comment");
     const auto detail = what.rfind(" - ");
-    refuse(file, fmt::format("not valid JSON: {}", detail == std::string_view::npos ? what : what.substr(detail + 3)), "",
-           "check the commas, brackets and double quotes before this place");
+    refuse(file, fmt::format("not valid JSON: {}", detail == std::string_view::npos ? what : what.substr(detail + 3)),
+           "", "check the commas, brackets and double quotes before this place");
   }
 
  private:

@@ -30,10 +30,10 @@ ShearOptions read_shear(const JsonPlace& place) {
   if (!(options.step <= options.until && options.until <= most_steps * options.step)) {
     const bool is_short = options.until < options.step;
     place.at(place.has("until") ? "until" : "step")
-        .refuse_with_remedy(
-            is_short ? fmt::format("until {} is less than step {}", options.until, options.step)
-                     : fmt::format("until {} needs more than {:.0f} steps of {}", options.until, most_steps, options.step),
-            is_short ? "increase until or decrease step" : "decrease until or increase step");
+        .refuse_with_remedy(is_short ? fmt::format("until {} is less than step {}", options.until, options.step)
+                                     : fmt::format("until {} needs more than {:.0f} steps of {}", options.until,
+                                                   most_steps, options.step),
+                            is_short ? "increase until or decrease step" : "decrease until or increase step");
   }
   return options;
 }

@@ -75,11 +75,10 @@ void look_at_window(const JamOptions& options, Warnings& warnings) {
   const double before =
       std::min(last / (1 - options.decompression.step_fraction), last + options.decompression.longest_step);
   if (last >= options.decompression.fit_window) {
-    warnings.add(
-        "final_distance", "",
-        fmt::format("{} is not below fit_window {}: at most one state would be in the window, and phi_j would "
-                    "be fitted to states outside it; increase fit_window",
-                    last, options.decompression.fit_window));
+    warnings.add("final_distance", "",
+                 fmt::format("{} is not below fit_window {}: at most one state would be in the window, and phi_j would "
+                             "be fitted to states outside it; increase fit_window",
+                             last, options.decompression.fit_window));
   } else if (before >= options.decompression.fit_window) {
     warnings.add(
         "fit_window", "",
@@ -140,8 +139,9 @@ void look_at_density(const JamOptions& options, const Known& solid, Warnings& wa
   if (reached < needed - scatter) {
     warnings.add(
         "max_steps", name,
-        fmt::format("{} steps of {} from density {}, the first without strain, reach at most {:.2f}: {}; increase max_steps",
-                    options.max_steps, options.compression.step, options.compression.initial_density, reached, where));
+        fmt::format(
+            "{} steps of {} from density {}, the first without strain, reach at most {:.2f}: {}; increase max_steps",
+            options.max_steps, options.compression.step, options.compression.initial_density, reached, where));
   }
   if (distance > 0 && distance <= options.decompression.final_distance) {
     warnings.add(

@@ -15,7 +15,8 @@ inline constexpr std::string_view resource_failure_recorded =
     "records a resource failure (memory, threads or disk) instead of a result";
 inline constexpr std::string_view states_not_saved = "the states of the decompression were not saved";
 inline constexpr std::string_view how_to_keep_states =
-    "set \"keep_path\": true in the manifest and run it again; isojam then recomputes the replicates without saved states";
+    "set \"keep_path\": true in the manifest and run it again; isojam then recomputes the replicates without saved "
+    "states";
 inline constexpr std::string_view no_states = "the list of states is empty";
 
 inline constexpr std::string_view list_of_states = "a list of states";

@@ -158,7 +158,8 @@ TEST_F(Crash, TheTableBelongsToTheManifestThatWasRun) {
     fs::copy_file(here_ / "other/manifest.json", here_ / "results/manifest.json", fs::copy_options::overwrite_existing);
   });
   EXPECT_EQ(foreign.exit_code, 1) << foreign.err;
-  EXPECT_NE(foreign.err.find("contains results of another manifest; the record is ignored"), std::string::npos) << foreign.err;
+  EXPECT_NE(foreign.err.find("contains results of another manifest; the record is ignored"), std::string::npos)
+      << foreign.err;
   EXPECT_NE(foreign.err.find("another process removed or changed files of "), std::string::npos) << foreign.err;
 }
 
