@@ -263,7 +263,7 @@ def cost(data):
     return (table(["study", "solid", "replicates", "failed", "CPU time, median, s", "all, minutes"], rows) + "\n" +
             table(["stage", "share of the CPU time, %"], [[f"`{stage}`", number(100 * t / total, 1)] for stage, t in
                                                           sorted(stages.items(), key=lambda item: -item[1])]) +
-            f"\nThe records were made by commits {', '.join(commits)}.\n")
+            f"\nAll together took {total / 60:.0f} CPU minutes. The records were made by commit {', '.join(commits)}.\n")
 
 
 TABLES = (
@@ -303,5 +303,5 @@ TABLES = (
 **Figure 5** ([PDF](structure.pdf)). S(k) of (a) packings with N = 400, and of (b) octahedra with N = 400 and N = 4000.
 Error bars are 95 % confidence intervals.""", fluctuations),
     ("A large packing", "One packing of 4000 octahedra, `n4000.json`.", large),
-    ("Cost", "CPU times on one core of an AMD EPYC that also ran other work.", cost),
+    ("Cost", "CPU times on one core of an Intel Xeon that also ran other work.", cost),
 )

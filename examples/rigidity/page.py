@@ -9,8 +9,8 @@ sys.path.insert(0, str(HERE.parent / "page"))
 import pages  # noqa: E402
 import values  # noqa: E402
 from counting import EDGES, FAR, drawn_size  # noqa: E402
-from data import SOLIDS  # noqa: E402
-from tables import TABLES, TILTS_AT, main_table  # noqa: E402, F401
+from data import SOLIDS, SOLIDS_64  # noqa: E402
+from tables import TABLES, TILTS_AT, main_table, other_solids  # noqa: E402, F401
 from text import number  # noqa: E402
 
 TITLE = "What makes a packing rigid"
@@ -39,8 +39,22 @@ def among(data, column, end, places="1"):
     return number(min(means) if end == "least" else max(means), int(places)) if means else "–"
 
 
+def of_solids(data, column):
+    """Means of a column over the packings of each solid with at least three packings, in the study of many solids."""
+    return [e["mean"] for solid in other_solids(data) if (e := data.nearest_of(SOLIDS_64, solid, column)) and e["n"] > 2]
+
+
+def solids_end(data, column, end):
+    means = of_solids(data, column)
+    return number(min(means) if end == "least" else max(means), 1) if means else "–"
+
+
+def missing_solids(data):
+    return [s for s in other_solids(data) if len(data.kept_of(SOLIDS_64, s)) < 3]
+
+
 value_of = values.value_of({
-    **values.VALUES, "exponent": exponent_end, "among": among,
+    **values.VALUES, "exponent": exponent_end, "among": among, "solids": solids_end,
     "size": lambda data: str(drawn_size(data)), "isostatic": lambda data: values.against_isostatic(
         data, "trough", drawn_size(data)),
     "drawn": lambda data, how, solid: values.constraints(data, how, solid, drawn_size(data))})
@@ -83,8 +97,13 @@ CLAIMS = {
     "No quantity follows one power law over the paper's range.": lambda data: all(
         max(means) - min(means) > 0.1 for s in SOLIDS for c in ("E", "K", "omega_l")
         if (means := [e["mean"] for a, e in zip(EDGES, data.exponents(s, 400, c, EDGES)) if e and a >= FAR[0]])),
-    "The committed data of N ≥ 200 are from version 0.1.0":
-        lambda data: data.sizes_without_troughs() == {200, 400, 800},
+    "The count of 3, 2 and 1 constraints holds for all these solids, also for those that are not Platonic.": lambda data:
+        len(of_solids(data, "C_s")) > 10 and all(
+            abs(x - expected) < 0.2 for name, expected in (("ff", 2), ("ef", 1), ("l", 0))
+            for x in of_solids(data, f"stiff_tilts_{name}")),
+    "All packings of cubes and most packings of rhombic dodecahedra are crystals, and no packing of truncated cubes "
+    "reached the target energy, so these three solids are missing": lambda data:
+        missing_solids(data) == ["cube", "truncated_cube", "rhombic_dodecahedron"],
     "N = 800 has few packings and ends at Δφ = 0.001.": lambda data: all(
         len(data.kept(s, 800)) < 8 and 0.8 < data.nearest_distance(s, 800)["mean"] / 0.001 < 1.2 for s in SOLIDS[2:]),
     "Near-rattlers do not explain the missing constraints": lambda data: all(

@@ -202,5 +202,5 @@ TABLES = (
      κR/f > 10, with the radius of gyration R and the force f of the contact.""", modes),
     ("Other solids", f"""Sixteen solids, N = 64, Δφ = {TILTS_AT}. The first number of packings is that of the packings in
      the means, without crystals and failures. C_s counts the normal and the stiff tilts of each contact.""", solids),
-    ("Cost", "CPU times on one core of an AMD EPYC that also ran other work.", cost),
+    ("Cost", "CPU times on one core of an Intel Xeon that also ran other work.", cost),
 )
