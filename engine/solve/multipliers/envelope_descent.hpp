@@ -28,7 +28,7 @@ class EnvelopeDescent {
   std::optional<EnvelopeState> step(const EnvelopeState& here, double longest, const std::function<bool()>& must_stop);
 
  private:
-  void adapt(const EnvelopeState& from, const EnvelopeState& to, const ModelStep& step, bool relaxed, bool repeated);
+  void adapt(const EnvelopeState& from, const EnvelopeState& to, const KrylovStep& step, bool relaxed, bool repeated);
 
   EnvelopeEvaluator& evaluator_;
   MinimiseWork& work_;
