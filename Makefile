@@ -85,7 +85,7 @@ run: build
 
 # The studies of examples/paper and examples/rigidity; then the page, its tables and its figures from their results. An
 # interrupted call is resumed. A replicate that failed (exit 1) is counted on the page.
-PAPER = n100 n400 n4000 negative protocol
+PAPER = n100 n400 n4000 negative emergence protocol
 RIGIDITY = n50 n64 n200 n800 solids
 # Measures that an interrupted call left come first, because `run` would compute the whole replicate again.
 studies = @for study in $(1); do \

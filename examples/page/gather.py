@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy
 
-from data import LARGE, NEGATIVE, SOLIDS_64
+from data import EMERGENCE, LARGE, NEGATIVE, SOLIDS_64
 from records import found, records_of, write
 
 # Column of a state: where it is in the record.
@@ -51,7 +51,8 @@ HISTOGRAMS_AT = (0.0025, 0.001)  # Δφ of histograms beside those of the tables
 SPECTRUM_AT = 0.01  # Δφ of the spectra, the same for all solids
 BALANCED = 1e-3  # largest residual of a backbone whose ranks are used: the removed particles carry no force
 STRUCTURE_FROM, SHELLS = 400, 40  # smallest N, and largest n² of the wave vectors 2π n/L, of structure factors
-NEAREST_ONLY = (LARGE, NEGATIVE, SOLIDS_64)  # studies of which pages use only the states nearest jamming
+NEAREST_ONLY = (LARGE, NEGATIVE, EMERGENCE, SOLIDS_64)  # studies of which pages use only the states nearest jamming
+EMERGENCE_AT = (0.32, 0.24, 0.16, 0.12, 0.08, 0.04)  # Δφ
 NEAR = 1.25  # factor between two values of Δφ that count as the same
 
 
@@ -255,13 +256,49 @@ def structure_of(directory, names):
     return [{**one, "k": sum(one["k"]) / len(one["k"])} for _, one in sorted(shells.items())]
 
 
+def below(numbers, width, angle):
+    """Number of angles below an angle; the bin that contains it is divided in proportion to the angle."""
+    total = 0.0
+    for k, count in enumerate(numbers["counts"], numbers["first"]):
+        low, high = 10 ** (width * k), 10 ** (width * (k + 1))
+        total += count * max(0.0, min(1.0, (angle - low) / (high - low)))
+    return total
+
+
+def emergence_of(records, critical):
+    """Numbers of contacts at several Δφ, summed over the packings: with θ_ff below 1°, with θ_ff between 1° and the smallest
+    critical angle, with θ_ef near 0, and all; and the share of random contacts whose θ_ef is near 0."""
+    end = math.radians(min(angle for name, angle in critical.items() if name.startswith("ff")))
+    made = []
+    for distance in EMERGENCE_AT:
+        sums, packings = [0.0] * 4, 0
+        for record in records:
+            state = nearest_to(record, distance)
+            bins = state and found(state, "contacts/angle_bins")
+            random = found(record, "nearest/contacts/angles/edge_face_random")
+            if not bins or not random or not random["expected"]:
+                continue
+            contacts = record["spec"]["particles"] / 2
+            share = random["expected"] / (contacts * record["nearest"]["contacts"]["Z"])
+            first = below(bins["face_face"], bins["width"], math.radians(1))
+            for i, number in enumerate((first, below(bins["face_face"], bins["width"], end) - first,
+                                        below(bins["edge_face"], bins["width"], random["angle"]),
+                                        contacts * state["contacts"]["Z"])):
+                sums[i] += number
+            packings += 1
+        if packings:
+            made.append({"delta_phi": distance, "packings": packings, "first": sums[0], "second": sums[1],
+                         "edge_face": sums[2], "contacts": sums[3], "random_share": share, "end": math.degrees(end)})
+    return made
+
+
 def study_of(isojam, directory):
     tables = tables_of(isojam, directory)
     named = list(records_of(directory))
     records = [record for _, record in named]
     varied = [key for key in VARIED if key in tables["rows"][0]["parameters"]]
     made = {"git": sorted({r["provenance"]["git"] for r in records}), "exclude": tables["exclude"],
-            "critical_angles": {}, "spectra": {}, "clusters": {}, "structure": {}, "troughs": []}
+            "critical_angles": {}, "spectra": {}, "clusters": {}, "structure": {}, "emergence": {}, "troughs": []}
     for row in [] if varied else tables["rows"]:
         kept = [r for r in records if r["status"] == "done" and not set(tables["exclude"]) & set(r.get("flags") or ())
                 and (r["spec"]["solid"], r["spec"]["particles"]) == (row["solid"], row["particles"])]
@@ -277,6 +314,8 @@ def study_of(isojam, directory):
         if cluster:
             made["clusters"][f"{row['solid']} {row['particles']}"] = cluster
         made["troughs"] += troughs_of(row, kept)
+        if directory.name == EMERGENCE:
+            made["emergence"][row["solid"]] = emergence_of(kept, row["critical_angles"])
     nearest_only = directory.name in NEAREST_ONLY
     return {**made, "replicates": [replicate_of(record, varied, nearest_only) for record in records]}
 

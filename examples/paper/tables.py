@@ -4,7 +4,7 @@ import functools
 import statistics
 
 from comparison import (DICE, DICE_DENSITY, STABLE_FROM, drawn_size, figures_of, offset, region_two, uncertainty, within)
-from data import LARGE, NEGATIVE, SOLIDS, base_of
+from data import EMERGENCE, LARGE, NEGATIVE, SOLIDS, base_of
 from estimates import NORMAL, difference_of, estimate_of
 from limits import limit
 from text import counted, interval, number, significant, signed, spread, table
@@ -204,6 +204,27 @@ def uniformity(data):
     return table(["solid, N", "region 2", "density of the upper half / density of the lower half"], rows)
 
 
+def emergence(data):
+    """For each solid and Δφ: (solid, Δφ, packings, density of θ_ff in region 1 / in region 2, number of θ_ef near 0 / number of
+    random contacts), both with the 95 % interval of Poisson noise."""
+    found = []
+    for solid, entries in data.studies.get(EMERGENCE, {}).get("emergence", {}).items():
+        for e in entries:
+            one = e["first"] * (e["end"] - 1) / e["second"]
+            near = e["edge_face"] / (e["contacts"] * e["random_share"])
+            found.append((solid, e["delta_phi"], e["packings"],
+                          {"mean": one, "half_width": NORMAL * one / math.sqrt(max(1, e["first"])), "n": 1},
+                          {"mean": near, "half_width": NORMAL * near / math.sqrt(max(1, e["edge_face"])), "n": 1}))
+    return found
+
+
+def emergence_table(data):
+    rows = [[solid, str(distance), str(packings), interval(one), interval(near)]
+            for solid, distance, packings, one, near in emergence(data)]
+    return table(["solid, N = 100", "Δφ", "packings", "θ_ff: density below 1° / density in region 2",
+                  "θ_ef near 0: number / number of random contacts"], rows)
+
+
 def structure(data, solid, particles):
     """[(k, estimate of S(k))] for each shell of wave vectors. If there are fewer than three packings, the interval is that of
     an exponential distribution of |Σ exp(−ik·x)|², with all wave vectors independent."""
@@ -295,6 +316,11 @@ TABLES = (
      0.01 (N = 400).""", unstable),
     ("Is region 2 of c(θ_ff) uniform?", """The paper states that θ_ff is uniform between 1° and the smallest critical
      angle. The ratio of densities would then be 1. Its interval is that of Poisson noise.""", uniformity),
+    ("Order in which regions emerge", """The paper states that region 1 of c(θ_ff), the angles below 1°, emerges only after
+     c(θ_ef) is hyper-random, that is, larger than for random contacts at small angles. Packings were compressed to E/N =
+     5·10⁻⁴ (`emergence.json`). Region 1 exists if the first ratio is above 1. c(θ_ef) is hyper-random if the second ratio
+     is above 1. *Near 0* are the angles that 10 % of random contacts have. Intervals are those of Poisson noise.""",
+     emergence_table),
     ("Density fluctuations", """Structure factor S(k) = |Σ exp(−ik·x)|²/N of the centres x of the particles, k in
      V_p^(−1/3), in the states nearest jamming. In a hyperuniform packing, S tends to 0 for k → 0. The interval for the
      packing with N = 4000 is that of an exponential distribution.

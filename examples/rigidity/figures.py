@@ -140,14 +140,15 @@ def solids(data, out):
         upper.errorbar(range(len(names)), [e["mean"] for e in found], [e["half_width"] for e in found], fmt="os^"[i],
                        color=colours[i], elinewidth=0.8, label=label)
     lower.axhline(12, color="0.6", linewidth=0.8, linestyle=":")
-    for column, fmt, colour, label in (("C_s", "D", "black", "C$_s$"), ("C", "D", "white", "C by fit")):
+    for column, shift, colour, label in (("C_s", -0.1, "black", "C$_s$"), ("C", 0.1, "white", "C by fit")):
         found = [data.nearest_of(SOLIDS_64, solid, column) for solid in names]
-        lower.errorbar(range(len(names)), [e["mean"] for e in found], [e["half_width"] for e in found], fmt=fmt,
-                       color="black", markerfacecolor=colour, elinewidth=0.8, label=label)
+        lower.errorbar([i + shift for i in range(len(names))], [e["mean"] for e in found],
+                       [e["half_width"] for e in found], fmt="D", color="black", markerfacecolor=colour, elinewidth=0.8,
+                       label=label)
     upper.set(ylabel="stiff tilts per contact", ylim=(-0.2, 2.4))
-    lower.set(ylabel="constraints", xlim=(-0.5, len(names) - 0.5))
+    lower.set(ylabel="constraints", xlim=(-0.5, len(names) - 0.5), ylim=(11.1, 13.3))
     lower.set_xticks(range(len(names)), [name.replace("_", " ") for name in names], rotation=35, ha="right")
-    upper.legend(ncols=3, loc="upper center", bbox_to_anchor=(0.5, 0.86))
+    upper.legend(ncols=3, loc="center", bbox_to_anchor=(0.5, 0.27))
     lower.legend(ncols=2, loc="upper right")
     letter(upper, "a")
     letter(lower, "b")
