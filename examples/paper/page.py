@@ -11,7 +11,8 @@ import values  # noqa: E402
 from comparison import STABLE_FROM, drawn_size, figures_of, offset_test, within  # noqa: E402
 from data import SOLIDS  # noqa: E402
 from estimates import NORMAL, student  # noqa: E402
-from tables import SIZES, TABLES, contacts_at_jamming, region_two_ratios, summary  # noqa: E402, F401
+from tables import (SIZES, TABLES, contacts_at_jamming, emergence, region_two_ratios, structure,  # noqa: E402, F401
+                    summary)
 from text import interval, number, significant  # noqa: E402
 
 TITLE = "Jammed packings of Platonic solids"
@@ -103,7 +104,14 @@ CLAIMS = {
     "The density of θ_ff between 1° and the smallest critical angle is not uniform": lambda data: all(
         abs(ratio["mean"] - 1) > ratio["half_width"] for _, _, ratio in region_two_ratios(data)),
     "For each of the eight combinations of solid and N, the paper's interval overlaps our prediction interval for one packing.": lambda data: not any(
-        "outside" in within(data, f, data.phi_j(f["solid"], f["particles"])) for f in figures_of("Table I")),
+        "outside" in within(data, f, data.phi_j(f["solid"], f["particles"])) for f in figures_of("Table I")),    "Small θ_ef are more frequent than in random contacts at all Δφ up to 0.32.": lambda data: len(emergence(data)) > 20
+        and all(near["mean"] - near["half_width"] > 1 for *_, near in emergence(data)),
+    "Angles θ_ff below 1° become frequent at Δφ between 0.16 and 0.04, in agreement with the paper, except in tetrahedra, "
+    "where they are frequent at Δφ = 0.32 too": lambda data: all(
+        (one["mean"] > 1) == (solid == SOLIDS[0] or distance < 0.1) for solid, distance, _, one, _ in emergence(data)
+        if distance > 0.15 or distance < 0.05),
+    "S(k) of the centres is a few thousandths for small k": lambda data: all(
+        0.0005 < e["mean"] < 0.01 for s in SOLIDS for n in (400, 4000) for k, e in structure(data, s, n) if k < 1),
     "This is weak evidence that the protocols differ.": lambda data: 0.005 < offset_test(data)[2] < 0.1,
     "In most of them, a mean over packings like ours would have such a narrow interval only for hundreds of packings.":
         lambda data: sum(needed_packings(data, f) > 100 for f in figures_of("Table I")) > 4,

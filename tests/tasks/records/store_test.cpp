@@ -172,7 +172,8 @@ TEST(Store, RejectsADirectoryOfAnotherManifest) {
     }
     return "";
   };
-  for (const std::string shows : {"manifest.json", "records/dodecahedron-N64-r0000.json"}) {
+  for (const std::string& shows :
+       {directory.path().string() + ": ", std::string("records/dodecahedron-N64-r0000.json")}) {
     const auto before = files_below(directory.path());
     const auto said = refusal_of(manifest_with(8));
     EXPECT_NE(said.find(shows), std::string::npos) << said;

@@ -252,7 +252,7 @@ TEST_F(ExportCommandTest, ImpossibleExportsAreRejected) {
   expect_refused(run(names_[0], "gsf", "a.gsd"), 2, "--format");
   expect_refused(run(names_[0], "gsd", "r"), 2, "r: cannot be written");
   expect_refused(run(names_[0], "gsd", "absent/a.gsd"), 2, "absent/a.gsd: cannot be written");
-  expect_refused(run("all", "gsd", "r/manifest.json"), 2, "r/manifest.json: cannot be created");
+  expect_refused(run("all", "gsd", "r/manifest.json"), 2, "r/manifest.json is a file; give a directory");
   expect_refused(run(names_[0], "xyz", "a.obj"), 2, "a.obj: this name is reserved");
   std::filesystem::remove(path_file(names_[0]));
   before_ = files_below(directory_.path());
