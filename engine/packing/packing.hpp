@@ -41,10 +41,10 @@ Packing strained_to(const Packing& packing, double density);
 Packing deformed(const Packing& packing, const DoubleDoubleMatrix& f);
 
 /// The packing after a step. In engine/, a step is a vector of changes of all coordinates. Its first 6N entries are
-/// (dx, R·dθ) for each particle, in the lab frame, where R is the radius of gyration. If strains are free, 1, 5 or 6
-/// more entries follow: the coordinates ℓ·ε in the basis strain_basis() (cell/control.hpp). First, exp(ε) strains the
-/// cell and moves the centres affinely. Then the particles move by dx and rotate by dθ. A particle whose entries are
-/// all zero keeps its pose after the strain exactly.
+/// (dx, R·dθ) for each particle, in the lab frame, where R is the radius of gyration. If the cell has free strains,
+/// their coordinates ℓ·ε in the basis strain_basis() follow as 1, 5 or 6 more entries, with ℓ = strain_length()
+/// (cell/control.hpp). First, exp(ε) strains the cell and moves the centres affinely. Then the particles move by dx and
+/// rotate by dθ. If all entries of a particle are zero, its pose is exactly the pose that the strain alone gives.
 Packing moved(const Packing& packing, const Eigen::VectorXd& step);
 
 }  // namespace isojam

@@ -47,7 +47,7 @@ def summary(data):
                      said(paper_density(solid, 400)), interval(contacts_at_jamming(data, solid, 400)),
                      interval(data.constraints(solid, size, "trough")), interval(data.constraints(solid, size, "fit")),
                      number(12 - 4 / size, 2), minima_text(data, solid, 400)])
-    return table(["solid", "φ_J, N = 400", "shift of φ_J by the protocol", "one more packing", "φ_J, paper",
+    return table(["solid", "φ_J, N = 400", "change of φ_J with other protocols", "one more packing", "φ_J, paper",
                   "Z_J, N = 400", f"C by trough, N = {size}", f"C by fit, N = {size}", "12 − 4/N",
                   "minima with three zero modes"], rows)
 

@@ -58,8 +58,9 @@ class Mixture {
 /// The name of the mixture.
 inline std::string_view to_string(const Mixture& mixture) { return mixture.name(); }
 
-/// Smallest number of particles of a mixture for which a cubic cell is legal (is_legal()) at density φ and at all lower
-/// densities. If the particles are not identical, the result is at most 2^17, even if more particles would be needed.
+/// Smallest number n such that a cubic cell with n particles of the mixture is legal at density φ and at all lower
+/// densities: no particle can touch two images of another one (is_legal() in cell/periodic_cell.hpp). If the particles
+/// are not identical, the result is at most 2^17, even if more particles would be needed.
 int least_particles(const Mixture& mixture, double density);
 
 }  // namespace isojam
