@@ -85,33 +85,36 @@ run: build
 
 # The studies of examples/paper and examples/rigidity; then the page, its tables and its figures from their results. An
 # interrupted call is resumed. A replicate that failed (exit 1) is counted on the page.
-PAPER = n100 n400 n4000 negative emergence protocol
+PAPER = n100 n400 n400-tetrahedra n4000 unstable emergence protocol
 RIGIDITY = n50 n64 n200 n800 solids
 # Measures that an interrupted call left come first, because `run` would compute the whole replicate again.
 studies = @for study in $(1); do \
 	  [ ! -d results/$(2)-$${study\#n}/records ] || $(BUILD)/isojam measure results/$(2)-$${study\#n} >/dev/null || [ $$? = 1 ] || exit 1; \
 	  $(BUILD)/isojam run examples/$(2)/$$study.json >/dev/null || [ $$? = 1 ] || exit 1; \
 	done
-# The backbone of the states nearest jamming. With N = 100, the manifest has it for all states.
-backbone = @$(BUILD)/isojam measure results/paper-400 --add backbone >/dev/null || [ $$? = 1 ]
-# Minutes per state, therefore only the states nearest jamming.
-negative = @$(BUILD)/isojam measure results/paper-negative --add difference_modes >/dev/null || [ $$? = 1 ]
+# Measures that take long, only of the states nearest jamming: of all states, if a manifest has them.
+nearest = @$(BUILD)/isojam measure results/paper-$(1) --add $(2) >/dev/null || [ $$? = 1 ]
+define nearest_400
+	$(call nearest,400,backbone)
+	$(call nearest,400-tetrahedra,backbone$(comma)rigidity)
+endef
+comma := ,
 page = @$(PYTHON) -B examples/$(1)/figures.py results/$(1) $(2) && \
 	  $(PYTHON) -B examples/$(1)/page.py --data $(2) -o results/$(1)
 paper: build
 	$(call install,python3 python3-matplotlib python3-scipy)
 	$(call studies,$(PAPER),paper)
-	$(backbone)
-	$(negative)
+	$(nearest_400)
+	$(call nearest,unstable,difference_modes)
 	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/paper/records.json $(addprefix paper-,$(PAPER:n%=%))
 	$(call page,paper,results/paper/records.json)
 
 rigidity: build
 	$(call install,python3 python3-matplotlib python3-scipy)
-	$(call studies,n100 n400,paper)
+	$(call studies,n100 n400 n400-tetrahedra,paper)
 	$(call studies,$(RIGIDITY),rigidity)
-	$(backbone)
-	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/rigidity/paper.json paper-100 paper-400
+	$(nearest_400)
+	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/rigidity/paper.json paper-100 paper-400 paper-400-tetrahedra
 	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/rigidity/records.json \
 	  $(addprefix rigidity-,$(RIGIDITY:n%=%))
 	$(call page,rigidity,results/rigidity/paper.json results/rigidity/records.json)
