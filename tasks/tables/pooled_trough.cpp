@@ -11,8 +11,8 @@ PackedAngles::PackedAngles(const AngleHistogram& histogram)
     : face_face_window_(static_cast<std::uint8_t>(histogram.face_face_window)),
       edge_face_window_(static_cast<std::uint8_t>(histogram.edge_face_window)) {
   const auto add = [&](int face_face, int edge_face, double number) {
-    constexpr double parts = 1 << 16;
-    const double contacts = std::round(number * parts) / parts;
+    constexpr double multiples = 1 << 16;
+    const double contacts = std::round(number * multiples) / multiples;
     if (contacts == 0) return;
     entries_.push_back(
         {static_cast<std::uint8_t>(face_face), static_cast<std::uint8_t>(edge_face), static_cast<float>(contacts)});
