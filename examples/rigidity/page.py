@@ -104,8 +104,6 @@ CLAIMS = {
     "All packings of cubes and most packings of rhombic dodecahedra are crystals, and no packing of truncated cubes "
     "reached the target energy, so these three solids are missing": lambda data:
         missing_solids(data) == ["cube", "truncated_cube", "rhombic_dodecahedron"],
-    "N = 800 has few packings and ends at Δφ = 0.001.": lambda data: all(
-        len(data.kept(s, 800)) < 8 and 0.8 < data.nearest_distance(s, 800)["mean"] / 0.001 < 1.2 for s in SOLIDS[2:]),
     "Near-rattlers do not explain the missing constraints": lambda data: all(
         data.at(s, 100, "backbone_m", TILTS_AT)["mean"] > 0.5 * data.at(s, 100, "missing", TILTS_AT)["mean"]
         for s in SOLIDS[2:]),
