@@ -1,6 +1,7 @@
 """Tables of the page and of tables.md."""
 
 import functools
+import math
 import statistics
 
 from comparison import (DICE, DICE_DENSITY, STABLE_FROM, drawn_size, figures_of, offset, region_two, uncertainty, within)
