@@ -75,7 +75,8 @@ def constraints_by_gap(state, particles):
     ff, ef = (bin_of(gap["cutoff"], bins["width"]) for gap in gaps)
     flat = counts_below(bins["face_face"], ff)
     edges = counts_below(bins["edge_face"], ef) - sum(n for a, b, n in cells_of(bins) if a < ff and b < ef)
-    return state["contacts"]["Z"] + 2 * (2 * flat + edges) / particles
+    # Without an edge-face contact, the gap of θ_ef is between face-face contacts and all others.
+    return state["contacts"]["Z"] + 2 * (2 * flat + edges) / particles if edges else None
 
 
 def cells_of(bins):

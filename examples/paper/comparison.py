@@ -13,6 +13,7 @@ VALUES = json.loads((Path(__file__).resolve().parent / "data/paper.json").read_t
 DICE_DENSITY = {"tetrahedron": (0.64, 0.01), "octahedron": (0.64, 0.01), "icosahedron": (0.59, 0.01),
                 "dodecahedron": (0.63, 0.01)}
 DICE = {"Z": "6.3 ± 0.5", "Z_ff": "2.3", "Z_ef": "1.2", "Z_l": "2.8", "C": "12.1 ± 1.6"}
+NEAR_JAMMING = 0.0015  # largest mean Δφ of states that show C at jamming
 # Smallest Δφ of the paper's stable states, from the caption of its Figure 3.
 STABLE_FROM = {"tetrahedron": 0.04, "octahedron": 0.02, "icosahedron": 0.01, "dodecahedron": 0.01}
 
@@ -30,8 +31,9 @@ def uncertainty(figure):
 
 
 def drawn_size(data):
-    """The larger of the paper's sizes for which C by troughs is known for all solids."""
-    return 400 if all(data.constraints(solid, 400, "trough") for solid in SOLIDS) else 100
+    """The larger of the paper's sizes for which C by troughs is known for all solids, near jamming."""
+    return 400 if all(data.constraints(s, 400, "trough") and data.nearest_distance(s, 400)["mean"] < NEAR_JAMMING
+                      for s in SOLIDS) else 100
 
 
 def offset(data, figure):

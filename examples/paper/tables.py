@@ -46,10 +46,11 @@ def summary(data):
         density = data.phi_j(solid, 400)
         rows.append([solid, interval(density), f"{signed(low, 3)} … {signed(high, 3)}", spread(density),
                      said(paper_density(solid, 400)), interval(contacts_at_jamming(data, solid, 400)),
-                     interval(data.constraints(solid, size, "trough")), interval(data.constraints(solid, size, "fit")),
+                     interval(data.constraints(solid, size, "trough")), interval(data.constraints(solid, 400, "trough")),
+                     interval(data.constraints(solid, size, "fit")),
                      number(12 - 4 / size, 2), minima_text(data, solid, 400)])
     return table(["solid", "φ_J, N = 400", "change of φ_J with other protocols", "one more packing", "φ_J, paper",
-                  "Z_J, N = 400", f"C by trough, N = {size}", f"C by fit, N = {size}", "12 − 4/N",
+                  "Z_J, N = 400", f"C by trough, N = {size}", "C by trough, N = 400", f"C by fit, N = {size}", f"12 − 4/N, N = {size}",
                   "minima with three zero modes"], rows)
 
 

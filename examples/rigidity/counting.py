@@ -8,12 +8,14 @@ from limits import limit_of_choices
 
 WINDOWS = ((0, 0.01), (0, 0.02), (0, 0.005))  # of Δφ, for limits
 EDGES = (0.0005, 0.001, 0.002, 0.004, 0.008, 0.016, 0.032, 0.064, 0.128)  # of the ranges of local exponents
+NEAR_JAMMING = 0.0015  # largest mean Δφ of states that show C at jamming
 FAR = (0.008, 0.128)  # range of Δφ in which ω_l is compared with √G and √K
 
 
 def drawn_size(data):
-    """The largest size with troughs for all solids."""
-    common = [n for n in data.sizes("octahedron") if all(data.trough(solid, n) for solid in SOLIDS)]
+    """The larger of the paper's sizes with troughs for all solids, near jamming."""
+    common = [n for n in (100, 400) if all(
+        data.trough(s, n) and data.nearest_distance(s, n)["mean"] < NEAR_JAMMING for s in SOLIDS)]
     return max(common, default=100)
 
 
