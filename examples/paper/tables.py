@@ -314,8 +314,8 @@ TABLES = (
      minima),
     ("Negative modes by central differences", """Share of negative modes of the analytic dynamical matrix, and of
      matrices from central differences of forces with the step h (V_p^(1/3)). The paper's stability analysis used central
-     differences. It found 5.3 % of unstable modes in tetrahedra at Δφ = 0.01, and less than 1.2 % in octahedra at Δφ =
-     0.01 (N = 400).""", unstable),
+     differences. With N = 400 and Δφ = 0.01, it found 5.3 % of
+     unstable modes in tetrahedra. In octahedra it found less than 1.2 %.""", unstable),
     ("Is region 2 of c(θ_ff) uniform?", """The paper states that θ_ff is uniform between 1° and the smallest critical
      angle. The ratio of densities would then be 1. Its interval is that of Poisson noise.""", uniformity),
     ("Order in which regions emerge", """The paper states that region 1 of c(θ_ff), the angles below 1°, emerges only after
