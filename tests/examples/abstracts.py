@@ -174,12 +174,13 @@ def paper_numbers(rows, pooled, size):
     phi = {key: [density_of(r) for r in of(rows, *key)] for key in PAPER}
     low, high = shifts(rows)
     return [("year", 2011, 0), ("Z_J, least", min(z), 0.051), ("Z_J, greatest", max(z), 0.051),
-            ("12", 12, 0), ("12", 12, 0),
+            ("12", 12, 0),
             *((f"C by trough, {s}", constraints_by_trough(rows, pooled, s, size), 0.12) for s in SOLIDS),
             ("C within the trough", max(
                 constraints_by_trough(rows, pooled, s, size, 0.2) - constraints_by_trough(rows, pooled, s, size, -0.2)
                 for s in SOLIDS) / 2, 0.06), ("N", size, 0), ("N", 400, 0),
             *((f"C by trough, {s}, N = 400", constraints_by_trough(rows, pooled, s, 400), 0.2) for s in SOLIDS[1:]),
+            ("Table", 1, 0), ("12", 12, 0), ("12", 12, 0),
             ("largest offset of φ_J", max(abs(PAPER[k] - numpy.mean(v)) for k, v in phi.items()), 0.00051),
             ("shift, least", low, 0.00051), ("shift, greatest", high, 0.00051)]
 
@@ -187,7 +188,8 @@ def paper_numbers(rows, pooled, size):
 def rigidity_numbers(rows, pooled, size):
     held = [at_all(rows, s, "held_by_second") for s in SOLIDS[1:]]
     left = [at_all(rows, s, "prestress_10") for s in SOLIDS[1:]]
-    return [("normals below half, least", min(held), 0.051), ("normals below half, greatest", max(held), 0.051),
+    return [("Δφ", 0.001, 0), ("normals below half, least", min(held), 0.051),
+            ("normals below half, greatest", max(held), 0.051),
             ("modes per particle", 6, 0), ("modes left", max(left), 0.0051), ("12", 12, 0), ("6", 6, 0), ("2", 2, 0),
             ("2", 2, 0), *((f"C by trough, {s}", constraints_by_trough(rows, pooled, s, size), 0.12) for s in SOLIDS)]
 
