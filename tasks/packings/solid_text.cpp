@@ -73,7 +73,8 @@ std::string precision_warning(const Solid& solid) {
   const auto shape = shape_of(*solid);
   if (shape.tolerance > fine_tolerance)
     return fmt::format(
-        "the coordinates are so large that faces less than {:.2g} diameters apart cannot be distinguished and are joined; "
+        "the coordinates are so large that faces less than {:.2g} diameters apart cannot be distinguished and are "
+        "joined; "
         "move the origin near the solid",
         shape.tolerance);
   if (!(shape.smallest_angle < suspect_angle)) return "";
