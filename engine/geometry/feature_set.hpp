@@ -17,8 +17,8 @@ struct BitSet {
   BitSet(std::uint64_t bits) : word{bits} {}  // NOLINT(google-explicit-constructor): a word is a set
   /// The same set in more words.
   template <int fewer>
-  requires(fewer < words) BitSet(const BitSet<fewer>& set)
-      : word{} {  // NOLINT(google-explicit-constructor): nothing is lost
+  // NOLINTNEXTLINE(google-explicit-constructor): nothing is lost
+  requires(fewer < words) BitSet(const BitSet<fewer>& set) : word{} {
     for (int w = 0; w < fewer; ++w) word[w] = set.word[w];
   }
   /// The set of the features 0 … n − 1. For a set of one word, n is at most 63.

@@ -74,8 +74,7 @@ std::string precision_warning(const Solid& solid) {
   if (shape.tolerance > fine_tolerance)
     return fmt::format(
         "the coordinates are so large that faces less than {:.2g} diameters apart cannot be distinguished and are "
-        "joined; "
-        "move the origin near the solid",
+        "joined; move the origin near the solid",
         shape.tolerance);
   if (!(shape.smallest_angle < suspect_angle)) return "";
   const auto& first = solid->faces()[static_cast<std::size_t>(shape.angle_faces[0])].vertices;
