@@ -105,6 +105,7 @@ paper: build
 	$(call install,python3 python3-matplotlib python3-scipy)
 	$(call studies,$(PAPER),paper)
 	$(nearest_400)
+	$(call nearest,4000,rigidity)
 	$(call nearest,unstable,difference_modes)
 	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/paper/records.json $(addprefix paper-,$(PAPER:n%=%))
 	$(call page,paper,results/paper/records.json)

@@ -11,9 +11,9 @@
 
 namespace isojam {
 
-/// A cluster: particles that are connected by bonds, directly or through other particles. A cluster winds if a path
-/// along bonds connects a particle with a periodic image of itself. The displacement to this image is called a winding.
-/// All windings of a cluster, in units of the lattice vectors, form a lattice.
+/// A cluster: particles that are connected by bonds, directly or through other particles. A cluster winds (percolates)
+/// if a path along bonds connects a particle with a periodic image of itself. The displacement to this image is called
+/// a winding. All windings of a cluster, in units of the lattice vectors, form a lattice.
 struct Cluster {
   std::vector<int> members;  ///< indices of the particles, ascending; the first one is the label of the cluster
   /// For each member, the periodic image that is reached along bonds from the first member. The centre of this image is
@@ -26,7 +26,7 @@ struct Cluster {
   /// Extents along x, y and z between the outermost centres (V_p^(1/3)). The cluster is followed along its bonds across
   /// the periodic boundaries. nullopt for each axis along which the cluster winds, because the extent is then infinite.
   std::array<std::optional<double>, 3> extent;
-  /// extents along x, y and z between the outermost vertices; nullopt for the same axes
+  /// extents along x, y and z between the outermost vertices; nullopt where `extent` is nullopt
   std::array<std::optional<double>, 3> body_extent;
 
   int size() const { return static_cast<int>(members.size()); }  ///< number of particles

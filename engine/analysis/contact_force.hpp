@@ -16,8 +16,8 @@ namespace isojam {
 /// that bound the intersection, take the face of A whose normal has the largest component along the contact normal, and
 /// the face of B whose normal has the largest component in the opposite direction. For each of these two faces, count
 /// the corners of the intersection that are on this face but not on the other one. The smaller count determines the
-/// features. One corner is a vertex, or a point where two edges cross. Two corners are the ends of an edge, and three
-/// or more are the corners of a face.
+/// features. One corner is a vertex, or a point where two edges cross; it is a vertex if the intersection contains a
+/// vertex of A or B. Two corners are the ends of an edge, and three or more are the corners of a face.
 enum class ContactKind : std::uint8_t {
   vertex_face,
   edge_edge,

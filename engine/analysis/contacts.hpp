@@ -72,8 +72,8 @@ struct ContactAnalysis : ClassCutoffs {
 
 /// Classifies the contacts of a packing of equal solids. The cut-offs are fitted to the distributions of both angles,
 /// from 0 to half of the smallest critical angle. A contact is face-face if θ_ff is below its cut-off. Otherwise it is
-/// edge-face if θ_ef is below its cut-off, and of lower order if not. If a fit finds no cut-off, its cut-off is 0, so
-/// no contact is in this class.
+/// edge-face if θ_ef is below its cut-off, and of lower order if not. If the fit for a class finds no cut-off, the
+/// cut-off is 0, so no contact is in this class.
 ContactAnalysis analyse_contacts(const ConvexSolid& solid, int particles, std::span<const Alignment> alignments);
 
 /// Classifies the contacts of a packing with any solids. Each pair of shapes has its own cut-offs, which are fitted to

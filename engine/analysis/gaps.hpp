@@ -9,10 +9,10 @@ namespace isojam {
 /// A pair of particles that nearly touch.
 struct Gap {
   NeighbourPair pair;  ///< the particles, and the image of b
-  /// Width of the gap, in units of V_p^(1/3): the distance of two parallel planes that separate the particles. It is
-  /// the largest such distance for planes that are parallel to a face of one of the two particles, or parallel both to
-  /// an edge of a and to an edge of b. The width is at most the distance between the particles. It can be smaller, for
-  /// example if two vertices are the nearest points.
+  /// Width of the gap, in units of V_p^(1/3): the distance of two parallel planes that separate the particles. Two
+  /// types of planes are considered: parallel to a face of a or b, and parallel to an edge of a and an edge of b. The
+  /// largest distance of all such planes is the width. It is at most the distance between the particles. It can be
+  /// smaller, for example if two vertices are the nearest points.
   double width = 0;
   /// true if two separating planes that are parallel to a face have the distance `width`, within rounding errors
   bool of_faces = false;

@@ -49,14 +49,15 @@ struct Edge {
 struct EdgeRecord {
   std::uint8_t tail, head, left, right;  ///< indices of the vertices and faces of the edge
   std::uint16_t tail_at, head_at;        ///< SolidArrays::at() of the two vertices
-  /// Numbers of the face pairs of both segments. [0], if the edge belongs to A: 32·left + 2^16·32·right. [1], if the
-  /// edge belongs to B: right + 2^16·left.
+  /// Numbers of the face pairs of both segments. pairs[0] is used if the edge belongs to A: 32·left + 2^16·32·right.
+  /// pairs[1] is used if it belongs to B: right + 2^16·left. If a solid of the pair has more than narrow_edges edges,
+  /// Numbers::pairs() (overlap/loop_numbers.hpp) replaces the factor 32 by a larger one.
   std::uint32_t pairs[2];
   std::uint64_t faces;  ///< set of the two faces, as bits; 0 if the solid has more than SolidArrays::word_edges edges
 };
 
-/// Sets of vertices, edges and faces of a solid. Four sets of one word are one vector, so that one operation computes
-/// the union of two Parts.
+/// Sets of vertices, edges and faces of a solid. Four sets of one word fit into one vector register, so that one
+/// operation computes the union of two Parts.
 template <int words>
 struct alignas(32) Parts {
   BitSet<words> vertices{}, edges{}, faces{},
@@ -155,9 +156,10 @@ class ConvexSolid {
   double diameter() const { return diameter_; }               ///< largest distance between two vertices
   /// Radius of gyration about an axis, R = sqrt(I/m), where I is the mean principal moment of inertia and m the mass.
   double gyration_radius() const { return gyration_radius_; }
-  /// Reference length of the solid of unit volume. Parts of an overlap that are small relative to it are computed in
-  /// double-double (overlap/small_distances.hpp). It is the inradius. For a solid with more than narrow_edges edges,
-  /// which may have very flat edges and blunt vertices, it is four circumradii.
+  /// Reference length of the solid at unit volume; it does not change with scale(). Parts of an overlap that are small
+  /// relative to this length are computed in double-double (overlap/small_distances.hpp). It is the inradius. For a
+  /// solid with more than narrow_edges edges, which may have very flat edges and blunt vertices, it is four
+  /// circumradii.
   double fine_below() const { return fine_below_; }
   /// Inertia tensor about the centroid, ∫ (|x|² − x xᵀ) dV, in the body frame. For a spherical top it is m R² times the
   /// identity.

@@ -6,8 +6,8 @@
 namespace isojam {
 
 /// A set of vertices, edges or faces of a solid: bit k % 64 of word k / 64 is set if the feature with index k belongs
-/// to the set. BitSet{} is the empty set. A BitSet without initialiser is not initialised, because this would cost too
-/// much for an array of sets in the computation of an overlap.
+/// to the set. BitSet{} is the empty set. A BitSet without initialiser has no defined content: an initialisation would
+/// cost too much for an array of sets in the computation of an overlap.
 template <int words>
 struct BitSet {
   std::uint64_t word[words];  ///< the bits

@@ -18,8 +18,8 @@ std::vector<Quad3> widened(std::span<const Eigen::Vector3d> points);
 Quad3 mean_of(std::span<const Quad3> points);
 
 /// Points for exact tests of orientation. The origin is moved to the mean of the points, rounded to double. The points
-/// are scaled by a power of two, so that the largest absolute value of a coordinate is between 1/4 and 1/2. Points that
-/// are doubles of similar magnitude are not rounded.
+/// are scaled by a power of two, so that the largest absolute value of a coordinate is between 1/4 and 1/2. If the
+/// coordinates are doubles of similar magnitude, the scaled coordinates are exact.
 class HullPoints {
  public:
   /// Throws NoSolid (hull.hpp) if there are fewer than four points or if all of them are equal.
@@ -28,7 +28,7 @@ class HullPoints {
   int size() const { return static_cast<int>(exact_.size()); }                             ///< number of points
   const Quad3& operator[](int k) const { return exact_[static_cast<std::size_t>(k)]; }     ///< a point, scaled
   const Eigen::Vector3d& near(int k) const { return near_[static_cast<std::size_t>(k)]; }  ///< the point in double
-  Quad unit() const { return unit_; }              ///< unit of length of the scaled points, in that of the given ones
+  Quad unit() const { return unit_; }              ///< unit of the scaled points, in units of the given points
   const Quad3& centre() const { return centre_; }  ///< origin of the scaled points, in the given coordinates
 
   /// Sign of the volume of the tetrahedron abcp: 1 if p is on the side from which abc is counter-clockwise, 0 if the
@@ -45,8 +45,8 @@ class HullPoints {
 
 /// Triangulates the convex hull of those points whose indices are in `use`, by adding one point after another. Points
 /// inside the hull are in no triangle. Points that are exactly on a face or an edge may be in triangles. If points
-/// coincide, at most one of them is a corner of triangles. Four or more corners in one plane are divided into triangles
-/// in this plane. The time is O(n²). Throws NoSolid (hull.hpp) if all points are in one plane.
+/// coincide, at most one of them is a corner of triangles. A face with four or more corners is divided into triangles.
+/// The time is O(n²). Throws NoSolid (hull.hpp) if all points are in one plane.
 std::vector<HullTriangle> hull_triangles(const HullPoints& points, std::span<const int> use);
 
 /// Six times the volume of a closed surface of polygons, which are lists of indices of `points`.

@@ -21,7 +21,7 @@ FacePlane fitted_plane(const FaceLoop& face, std::span<const Quad3> vertices);
 /// Largest move of a vertex to make faces planar, relative to the tolerance within which vertices form a face.
 inline constexpr double largest_planar_move = 4;
 
-/// A polyhedron with planar faces.
+/// A polyhedron with planar faces. with_planar_faces() below defines its size.
 struct PlanarSolid {
   std::vector<Quad3> vertices;  ///< vertices that are in the planes of their faces within 1e-30 of the size
   Quad largest_distance = 0;    ///< largest distance of a vertex from a fitted plane before the change
@@ -41,8 +41,8 @@ struct PlanarSolid {
 ///     (δv, δn, δd) = −Jᵀ (J Jᵀ)⁻¹ g,
 ///
 /// with lengths in units of the size. J Jᵀ is factorised in double, and g is computed in quadruple precision. To first
-/// order, the result is thus the nearest polyhedron of this type in the norm of all unknowns. Each step reduces g by a
-/// factor of about 1e-13, or to about the square of the last move if that is larger.
+/// order, the result is thus the nearest polyhedron of this type in the norm of all unknowns. After each step, g is
+/// about 1e-13 times its previous value, or about the square of the last move if that is larger.
 ///
 /// Throws NoSolid if the steps do not converge, if a vertex would move by more than `allowed_move` (in the unit of the
 /// vertices), or if the result is not convex.

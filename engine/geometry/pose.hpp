@@ -52,8 +52,8 @@ struct Pose {
 };
 
 /// The pose after a motion in which the centre moves by dx and the orientation becomes exp(θ)·q; dx and θ are in the
-/// lab frame. The new |q| is 1 with an error of about 1e-31. Motions down to 1e-25 change the pose, because both
-/// doubles of each number change.
+/// lab frame. The new |q| is 1 with an error of about 1e-31. Motions as small as 1e-25 still change the pose, because
+/// they change the second double of a number.
 Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& theta);
 
 /// The same motion. v = sin(|θ|/2) θ/|θ| is the vector part of the unit quaternion of the rotation. Its scalar part is
@@ -76,8 +76,8 @@ struct RelativePose {
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< B's centre in A's body frame
 };
 
-/// Relative pose of B at `displacement` = x_B − x_A (lab frame, periodic image already chosen). a and b must be unit
-/// quaternions.
+/// Relative pose of B at `displacement` = x_B − x_A (lab frame, periodic image already chosen). a and b, the
+/// orientations of A and B, must be unit quaternions.
 RelativePose relative_pose(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b,
                            const Eigen::Vector3d& displacement);
 

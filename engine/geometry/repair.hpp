@@ -11,7 +11,8 @@ namespace isojam {
 
 /// Upper limit of RepairOptions::merge.
 inline constexpr double largest_merge = 0.01;
-/// Adjacent faces with a smaller angle between their normals, in rad, are probably one face whose corners were rounded.
+/// Two adjacent faces whose normals differ by less than this angle (rad) are probably one face whose corners have
+/// rounding errors.
 inline constexpr double suspect_angle = 1e-3;
 
 /// The repairs that a caller allows. By default none is allowed.
@@ -45,14 +46,16 @@ struct RepairReport {
 /// The corners of a repaired solid.
 struct RepairedSolid {
   /// The corners. If nothing was repaired these are the given points. If points were only welded, omitted or removed,
-  /// they have the coordinates of given points. If faces were joined, the origin is the centre of their bounding box,
-  /// and the unit of length is that of the given points. ConvexSolid makes the same solid from the corners each time.
+  /// they have the coordinates of given points. If faces were joined, the origin is the centre of the bounding box of
+  /// the corners; the unit of length is that of the given points. The corners determine the solid completely:
+  /// ConvexSolid needs no data about its faces.
   std::vector<Eigen::Vector3d> vertices;
   RepairReport report;  ///< the repairs that were made
 };
 
 /// For each point, the index of the first point of its group. Two points belong to the same group if their distance is
-/// at most `distance`, or if points of the group connect them. The time is O(n²) if all points have the same x.
+/// at most `distance`, or if a chain of such pairs connects them. The time is O(n²) in the worst case, if all points
+/// have the same x.
 std::vector<std::size_t> welded(std::span<const Eigen::Vector3d> points, double distance);
 
 /// Repairs the convex hull of points: welds points, omits inner points, removes corners and joins faces, in this order,

@@ -21,8 +21,8 @@ struct EnumName {
 template <class Enum>
 EnumName(Enum, std::string_view) -> EnumName<Enum>;
 
-/// The names of an enumeration. Name each enumerator once. Messages and lists use this order. Specialise this variable
-/// directly after the enumeration. Then to_string() and from_string() work for the enumeration:
+/// The names of an enumeration. Name each enumerator once. Messages and lists use the order of this array. Specialise
+/// this variable directly after the enumeration. Then to_string() and from_string() work for the enumeration:
 ///
 ///   enum class Axis { x, y };
 ///   template <>

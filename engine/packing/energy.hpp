@@ -36,8 +36,8 @@ struct Evaluation {
   ///   |F_c|/mean_force. The sum is over the contacts c of a particle, and the maximum over all particles. The factor b
   ///   is the largest ratio of circumradius to radius of gyration, because the circumradius is the longest lever arm of
   ///   a force. ρ_c = τ/max(d, V/|S|) + τ/√|S| is the relative error of the volume V and the vector area S of a
-  ///   contact. The distance of a vertex from a plane has the error τ = gap_tolerance() if it is larger than d =
-  ///   double_double_below(). Smaller distances are correct to their last bits. The second term of ρ_c is due to the
+  ///   contact. A distance of a vertex from a plane that is larger than d = double_double_below() has the error τ =
+  ///   gap_tolerance(). Smaller distances are correct to their last bits. The second term of ρ_c is due to the
   ///   corners of the intersection, whose coordinates are doubles.
   double residual_floor = 0;
   /// Error of the energy that the same rounding can cause, as a sum over contacts: Σ |F|·ulp(L) with
@@ -52,7 +52,7 @@ struct Evaluation {
 double deviator_of(const Evaluation& evaluation);
 
 /// Second derivatives of the energy, and the incipient contacts. The second derivatives contain no stiffness, or too
-/// little, for some incipient contacts.
+/// little, for some incipient contacts; incipient_contact.hpp gives the reasons.
 struct SecondOrder {
   /// Hessian ∂²E/∂r². The coordinates r are (x, R·θ) for each particle, as in Evaluation::gradient, followed by the
   /// coordinates ℓ·ε of the free strains, with ℓ = strain_length() (cell/control.hpp).
@@ -76,7 +76,7 @@ struct ContactTerms {
   Eigen::Vector3d dx, dtheta_a, dtheta_b;
   Eigen::Matrix3d stress;        ///< −V_cell times the term that is added to the stress
   double energy = 0, force = 0;  ///< energy V²/4, and contact force |F|
-  /// ½ |∇V|²; stiffness_a contains only derivatives with respect to the coordinates of a, and stiffness_b of b
+  /// ½ |∇V|², with derivatives with respect to one particle only: a for stiffness_a, and b for stiffness_b
   double stiffness_a = 0, stiffness_b = 0;
   double error = 0;  ///< relative error ρ_c, see Evaluation::residual_floor
 };

@@ -27,8 +27,8 @@ class Enthalpy {
   /// is the prescribed pressure p. Otherwise, D has no term p·1, and P is the pressure of the packing. If P ≤ 0 and D ≠
   /// 0, the residual is infinite.
   Evaluation of(Evaluation evaluation, const Packing& packing) const;
-  /// Adds the energy of the load and the derivatives with respect to the free strains to the evaluation of an envelope
-  /// (envelope/envelope.hpp), in which the stiffness of every contact is limited.
+  /// Does the same for the evaluation of an envelope (envelope/envelope.hpp): adds the energy of the load, and appends
+  /// the derivatives with respect to the free strains. An envelope has no residual.
   EnvelopeEvaluation of(EnvelopeEvaluation evaluation, const Packing& packing) const;
   /// Adds the second derivatives of the load to BlockMatrix::corner of the Hessian of the energy.
   void add_to(BlockMatrix& hessian, const Packing& packing) const;

@@ -31,9 +31,8 @@ struct LinearisedOverlap {
 /// linearised twice: in the present state, and in the closed state. The closed state is the present state with the
 /// centre of b closer to the centre of a by the probe distance. The present tangent alone is not sufficient. It is 0 if
 /// the pair has a gap. Its slope is much too small if a vertex touches a face and the next step makes two faces
-/// coplanar. For a flat contact, a contact of two faces that are almost coplanar, both tangents are lower bounds of V
-/// if only the depth and the tilt change, because V is then convex. Sliding changes V little, because the depth is
-/// small.
+/// coplanar. In a flat contact, two faces are almost coplanar. If only its depth and its tilt change, V is convex, and
+/// both tangents are lower bounds of V. Sliding changes V little, because the depth is small.
 struct IncipientContact {
   int a = 0, b = 0;       ///< indices of the particles
   LinearisedOverlap now;  ///< tangent in the present state; zero if the pair does not touch
@@ -41,11 +40,12 @@ struct IncipientContact {
   /// negative. The tangent is zero if the pair does not touch in the closed state, or if the probe distance is 0.
   LinearisedOverlap closed;
   /// Estimated stiffness matrix for the coordinates relative_rotation(), in units of Y·V_p^(1/3). It assumes a flat
-  /// contact whose two face planes intersect in a line through the centre of the contact. The estimate is |S|³/(50 R_a
-  /// R_b) for all axes in the plane of the faces, and 0 for the normal of this plane. S is the larger vector area of
-  /// the present and the closed state. The matrix is computed for every pair, but a pair has this stiffness only if the
-  /// line crosses the faces. If the line does not cross the faces in the present state, V is linear in such a rotation,
-  /// and the Hessian does not contain the stiffness. The line may cross the faces after the step.
+  /// contact whose two face planes intersect in a line through the centre of the contact. For rotations about all axes
+  /// in the plane of the faces, the estimate is |S|³/(50 R_a R_b). About the normal of the plane, it is 0. S is the
+  /// larger vector area of the present and the closed state. The matrix is computed for every pair, but a pair has this
+  /// stiffness only if the line crosses the faces. If the line does not cross the faces in the present state, V is a
+  /// linear function of the rotation, and the Hessian does not contain this stiffness. After the step, the line may
+  /// nevertheless cross the faces.
   Eigen::Matrix3d tilt = Eigen::Matrix3d::Zero();
   /// √(R_a R_b)/R_a and √(R_a R_b)/R_b, where R_a and R_b are the radii of gyration
   double rotation_scale_a = 1, rotation_scale_b = 1;

@@ -9,8 +9,8 @@ namespace isojam {
 // Parallel loops of the engine, run by oneTBB. The function `run` is called once for each index. Rules:
 // - Each call of `run` may write only to data that no other call uses, such as its own element of an array. The result
 //   then depends neither on the number of threads nor on the order of the calls.
-// - A thread that waits for the end of a loop or forest runs only calls of the same loop or forest. It does not start
-//   another replicate, which might take an hour.
+// - A thread that waits for the end of a loop runs only calls of the same loop, or of the same forest (see
+//   for_each_in_forest()). It does not start another replicate, which might take an hour.
 // - If the caller runs in a task of oneTBB that is cancelled, all calls are made nevertheless.
 // - If a call throws an exception, calls that have not started may be skipped. The exception is rethrown when all
 //   running calls have ended.

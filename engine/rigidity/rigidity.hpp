@@ -19,7 +19,8 @@ struct Rigidity {
   /// singular value that counts as zero. Rows have unit length. The rank is reliable if there is a large gap between
   /// the two values. `least_kept` is 0 if all singular values count as zero, and `largest_dropped` is 0 if none does.
   double least_kept = 0, largest_dropped = 0;
-  /// Orthonormal basis of the states of self-stress, constraints × self_stress. Empty unless RigidityOptions::stresses.
+  /// Orthonormal basis of the states of self-stress, constraints × self_stress. Empty unless RigidityOptions::stresses
+  /// is true.
   Eigen::MatrixXd stresses;
 
   bool full_rank() const { return floppy == 3; }  ///< true if the rank is 6N − 3

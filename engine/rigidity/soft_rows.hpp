@@ -20,7 +20,7 @@ class SoftRows {
 
   /// One step of the iteration for each column of x (Sherman, Morrison, Woodbury):
   ///   τ² (rows rowsᵀ + τ²)⁻¹ x = x − rows (rowsᵀrows + τ²)⁻¹ rowsᵀ x
-  /// The step multiplies a combination with the singular value σ by τ²/(σ² + τ²). States of self-stress therefore do
+  /// A combination whose singular value is σ is multiplied by τ²/(σ² + τ²). States of self-stress (σ = 0) therefore do
   /// not change, and all other combinations are damped. τ is 1e-6 times stiffest().
   Eigen::MatrixXd damped(const Eigen::MatrixXd& x) const;
 

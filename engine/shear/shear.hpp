@@ -43,8 +43,8 @@ struct ShearOptions {
   double step = 1e-3;
   double until = 0.02;  ///< final value of γ; with stress control, final value of s/p₀
   bool back = false;    ///< true: from `until`, γ or s/p₀ goes back to 0 in the same steps
-  /// Options of the minimisations, with the default `control`. The method of multipliers follows each step for any
-  /// value of `method`.
+  /// Options of the minimisations. Leave `control` at its default, because shear() sets it. For any value of `method`,
+  /// the method of multipliers first follows the equilibrium in each step.
   MinimiseOptions minimise;
 };
 

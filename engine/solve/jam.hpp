@@ -14,13 +14,13 @@
 
 namespace isojam {
 
-/// Relaxation of the states during compression: the values of the key `consolidation` in manifests. φ_J of tetrahedra
-/// depends on the choice, see docs/protocol.md.
+/// Setting for the relaxation of the states during compression. Its names are the values of the key `consolidation` in
+/// manifests. φ_J of tetrahedra depends on this setting, see docs/protocol.md.
 enum class Consolidation {
   /// Relaxed compression: L-BFGS relaxes each state with at most Compression::evaluations evaluations.
   relaxed,
-  /// Hasty compression: L-BFGS relaxes each state with at most 50 evaluations. For tetrahedra with N = 64, the paper's
-  /// φ_J is then within the confidence interval (docs/protocol.md).
+  /// Hasty compression: L-BFGS relaxes each state with at most 50 evaluations. For tetrahedra with N = 64, the
+  /// confidence interval of φ_J then contains the paper's φ_J (docs/protocol.md).
   hasty
 };
 template <>
@@ -62,14 +62,14 @@ struct Compression {
   /// density (is_legal() in packing/cell/periodic_cell.hpp). Crystals can exceed φ = 0.9 before they reach the target
   /// energy.
   double max_density = 0.93;
-  /// L-BFGS ends the relaxation of a state when the residual is at most this value, when E/N is below unjammed_energy,
-  /// when minimise.energy_change ends it, or after `evaluations` evaluations. Decompression begins with a minimisation
-  /// of the last state to an equilibrium.
+  /// L-BFGS relaxes a state until the residual is at most this value. The relaxation ends earlier if E/N is below
+  /// unjammed_energy, if the criterion minimise.energy_change is satisfied, or after the largest number of evaluations.
+  /// Decompression begins with a minimisation of the last state to an equilibrium.
   double residual = 1e-3;
   double unjammed_energy = 1e-14;  ///< E/N below which a state that is not yet relaxed counts as unjammed
-  /// Largest number of evaluations for a state. For none of the paper's four solids does φ_J with 2000 evaluations
-  /// differ significantly from φ_J with 500. For tetrahedra, 2000 are recommended, because 8000 evaluations increase
-  /// φ_J by 0.005 ± 0.005 (docs/protocol.md).
+  /// Largest number of evaluations for a state. For the paper's four solids, the differences between φ_J with 500 and
+  /// with 2000 evaluations are not significant. For tetrahedra, 2000 are nevertheless recommended: their φ_J increases
+  /// by 0.005 ± 0.005 from 500 to 8000 evaluations (docs/protocol.md).
   int evaluations = 500;
   Consolidation relaxation = Consolidation::relaxed;  ///< relaxation of the states
 };
@@ -197,17 +197,20 @@ struct JamProgress {
   /// packing from which the next step starts: the last minimised state, or the initial configuration
   Packing packing;
   JamStage stage = JamStage::consolidation;  ///< stage of the next step
-  /// present value of the step fraction: at first Decompression::step_fraction, smaller after failed steps
+  /// Present value of the step fraction: at first Decompression::step_fraction. It is smaller after steps that failed,
+  /// were repeated or ended a solution branch.
   double step_fraction = 0;
   /// Number of steps of the decompression that failed or ended a solution branch. Each of them halves the step
   /// fraction. The fifth ends the decompression.
   int halvings = 0;
-  /// If a solution branch has just ended: index in `path` of its last equilibrium. `packing` is then unjammed or far
-  /// from equilibrium, and the next steps compress it to an equilibrium of another branch. Otherwise −1.
+  /// Index in `path` of the last equilibrium of a solution branch that has just ended; otherwise −1. After the end of a
+  /// branch, `packing` is unjammed or far from equilibrium. The next steps compress it to an equilibrium of another
+  /// branch.
   int lost = -1;
   JamResult result;  ///< result so far; its status is not_called until the run has ended
-  /// True if the run began with begin_expansion(). Decompression then begins at any energy. Otherwise it returns to
-  /// compression if its first minimisation reduces the energy too far (Compression::target_before_relaxation).
+  /// True if the run began with begin_expansion(). Decompression then begins at any energy. Otherwise the run returns
+  /// to compression if the first minimisation of the decompression reduces the energy too far
+  /// (Compression::target_before_relaxation).
   bool jammed = false;
 
   bool ended() const { return result.status != JamStatus::not_called; }  ///< true if the run has ended

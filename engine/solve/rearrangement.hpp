@@ -21,9 +21,10 @@ Rearrangement rearrangement(const Packing& before, const JamStep& step_before, c
 ///   length of a step   steps   with ratio ≥ 0.95   with ratio < 0.5
 ///   5 % of Δφ          855     830                 2
 ///   35 % of Δφ         117     54                  2
-/// The two distributions of the ratio differ only above about 0.7, because a longer step also makes a packing softer,
-/// which is not a rearrangement. 94 more decompressions (N = 32 to 400) had steps of 35 %. They had 483 steps with Δφ
-/// below 0.05. The ratio was below 0.5 in 28 of these steps, and in none of the steps with a larger Δφ.
+/// In a longer step, a packing also becomes softer. This lowers the ratio, although it is not a rearrangement. The two
+/// distributions of the ratio therefore differ, but only above about 0.7. 94 more decompressions (N = 32 to 400) had
+/// steps of 35 %. They had 483 steps with Δφ below 0.05. The ratio was below 0.5 in 28 of these steps, and in none of
+/// the steps with a larger Δφ.
 inline constexpr double rearranged_below = 0.5;
 
 /// True if the step contains a rearrangement: its energy_ratio is below rearranged_below, or the solution branch ended

@@ -11,11 +11,11 @@ namespace isojam {
 
 // The dynamical matrix D of a packing has the eigenvalue equation D u = λ u with λ = ω². Its coordinates are those of
 // PackingEnergy::hessian: r = {x, R·θ} for each particle, where R is the radius of gyration. The mass of a particle is
-// its volume, because ρ = 1. If I is its tensor of inertia, the mass tensor of the coordinate R·θ is I/R², because its
-// kinetic energy is ½ θ'ᵀIθ' = ½ (Rθ')ᵀ(I/R²)(Rθ') at the angular velocity θ'. M contains the masses and mass tensors
-// of all particles. Then D = M^(-1/2) ∂²E/∂r² M^(-1/2), and a mode u displaces the particles by M^(-1/2) u. If all
-// particles are spherical tops (three equal moments of inertia) of unit volume, M = 1 and D = ∂²E/∂r². λ is in units of
-// (Y/ρ)·V_p^(-2/3).
+// its volume, because ρ = 1. If I is its tensor of inertia, the mass tensor of the coordinate R·θ is I/R², because the
+// kinetic energy of a rotation is ½ θ'ᵀIθ' = ½ (Rθ')ᵀ(I/R²)(Rθ') at the angular velocity θ'. M contains the masses and
+// mass tensors of all particles. Then D = M^(-1/2) ∂²E/∂r² M^(-1/2), and a mode u displaces the particles by
+// M^(-1/2) u. If all particles are spherical tops (three equal moments of inertia) of unit volume, M = 1 and
+// D = ∂²E/∂r². λ is in units of (Y/ρ)·V_p^(-2/3).
 
 /// Computes D from the Hessian of the packing. The Hessian must not have a border.
 BlockMatrix dynamical_matrix(const Packing& packing, BlockMatrix hessian);

@@ -60,7 +60,7 @@ struct LanczosModes {
 };
 
 /// Computes eigenpairs by the implicitly restarted Lanczos method (Spectra). If the shift is an eigenvalue and the
-/// operation throws std::domain_error, this exception leaves the function.
+/// operation throws std::domain_error, the caller receives this exception.
 LanczosModes lanczos(LanczosOperation operation, const LanczosRequest& request);
 
 }  // namespace isojam

@@ -34,8 +34,8 @@ struct ElasticTensor {
 /// Computes the elastic tensor of an equilibrium from its Hessian, its contacts (PackingEnergy::contacts()) and its
 /// evaluation. If a block of the Hessian belongs to a pair that is not in `contacts`, the pair is assumed to touch at
 /// the nearest image. This can happen for overlaps that only double-double resolves. Particles without contacts are
-/// ignored. nullopt if the Hessian is not positive definite for all motions except translations and motions of
-/// particles without contacts, because the response is then undefined.
+/// ignored. nullopt if any motion of the other particles, apart from translations, has no positive stiffness. The
+/// response is undefined in this case.
 std::optional<ElasticTensor> elastic_tensor(const Packing& packing, const BlockMatrix& hessian,
                                             std::span<const Contact> contacts, const Evaluation& evaluation);
 

@@ -9,11 +9,12 @@ enum class Pinning {
   translations_and_untouched,  ///< also all coordinates of particles without contacts, which have no stiffness
 };
 
-/// D with some coordinates pinned: their rows and columns are 0, except for `pinned_diagonal` > 0 on the diagonal.
+/// A matrix D (dynamical matrix or Hessian) with some coordinates pinned: their rows and columns are 0, except for
+/// `pinned_diagonal` > 0 on the diagonal.
 /// Pinning particle 0 excludes the translations, which are null vectors of D. With Pinning::translations, the matrix is
-/// therefore positive definite if and only if D is positive definite for all other motions. Let f be forces on the
-/// particles that sum to 0. If the pinned entries of f are set to 0, the solution u with this matrix solves D u = f for
-/// the original f.
+/// therefore positive definite if and only if D is positive definite for all other motions. Let D be the
+/// Hessian, and f forces on the particles that sum to 0. If the pinned entries of f are set to 0, the solution u with
+/// this matrix solves D u = f for the original f.
 BlockMatrix pinned_matrix(const BlockMatrix& matrix, double pinned_diagonal, Pinning pinning);
 
 }  // namespace isojam

@@ -19,7 +19,8 @@ enum class MinimumSearchEnd {
   lost_balance,     ///< a minimisation found no equilibrium
   /// negative modes remain: `max_descents` is reached, or the energy does not decrease along the mode
   still_unstable,
-  undetermined  ///< the zero and negative modes could not be counted, or the lowest mode was not found
+  /// the zero and negative modes could not be counted, or the lowest mode or the softest strain was not found
+  undetermined
 };
 template <>
 inline constexpr std::array enum_names<MinimumSearchEnd>{EnumName{MinimumSearchEnd::not_called, "not_called"},

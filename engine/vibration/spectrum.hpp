@@ -73,8 +73,8 @@ struct ModeOptions {
 /// computed again in three cases: the method does not converge, the residual shows that the factorisation was
 /// inaccurate, or modes below the shift are missing. The number of modes below the shift follows from Sylvester's law
 /// of inertia. The second attempt uses a larger subspace and a shift below the whole spectrum. The third attempt uses
-/// the dense solver, for at most `largest_dense` particles. If a
-/// numerical method fails, ModeSet::ended reports it, and nothing is thrown.
+/// the dense solver, for at most `largest_dense` particles. If no modes are found, ModeSet::ended reports the failure,
+/// and nothing is thrown.
 SpectrumEnds spectrum_ends(const BlockMatrix& matrix, const ModeOptions& options = {});
 
 /// Computes all 6N − 3 modes with the dense solver, in a time of O(N³) and with a memory of O(N²).

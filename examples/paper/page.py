@@ -99,7 +99,7 @@ CLAIMS = {
     "can have spurious negative modes": lambda data: all(
         data.nearest(s, 100, "unstable_exact")["mean"] == 0 < data.nearest(s, 100, "unstable_h8")["mean"]
         for s in SOLIDS),
-    "The highest modes move almost only particles with a face-face contact, and each of them moves about two particles.":
+    "The highest modes move almost only particles with a face-face contact, and each mode moves about two particles.":
         lambda data: all(data.nearest(s, 400, "amplitude")["mean"] > 0.95
                          and abs(data.nearest(s, 400, "participating")["mean"] - 2.2) < 0.3 for s in SOLIDS),
     "The paper's Z_ff and mean cluster sizes are within our prediction intervals for one packing, except the larger cluster "
@@ -127,7 +127,7 @@ CLAIMS = {
     "The structure factor of the centres is below 0.05 for wave numbers k < 1": lambda data: all(
         e["mean"] + e["half_width"] < 0.05 for s in SOLIDS for n in (400, 4000) for k, e in structure(data, s, n) if k < 1),
     "This is evidence that the protocols differ.": lambda data: offset_test(data)[2] < 0.02,
-    "In most of them, a mean over packings like ours would have such a narrow interval only for hundreds of packings.":
+    "For most combinations, a mean over packings like ours would have such a narrow interval only for hundreds of packings.":
         lambda data: sum(needed_packings(data, f) > 100 for f in figures_of("Table I")) > 4,
     "Shifts by the protocol are of the same order as the offsets": lambda data: 0.3 < max(
         -data.protocol_range(s)[0] for s in SOLIDS) / float(largest_offset(data)) < 3,

@@ -97,7 +97,8 @@ void add_manual(CLI::App& app, Session& session);
 
 /// Parses the command line, and stores the function of the chosen command in `session`. The help lists the commands in
 /// the order of `commands`. If the user asked for the help or the version, or made an error, there is no function to
-/// call. The text of the help, version or error is then printed, and the exit code is returned.
+/// call. The text of the help, version or error is then printed, and the exit code is returned. Otherwise returns
+/// nullopt.
 std::optional<ExitCode> parse_command_line(int argc, char** argv, std::span<const AddCommand> commands,
                                            Session& session);
 

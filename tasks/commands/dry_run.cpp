@@ -51,7 +51,7 @@ ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& 
     least += at_least * each, most += at_most * each;
     disk += at_most * cost.disk_bytes;
     disk_with_paths += at_most * estimated_cost(spec, true).disk_bytes;
-    largest = std::max(largest, cost.memory_bytes);
+    if (at_most > 0) largest = std::max(largest, cost.memory_bytes);
     const auto replicates = manifest.replicates.goal
                                 ? fmt::format("{} to {} replicates", manifest.replicates.min, manifest.replicates.max)
                                 : counted(static_cast<std::size_t>(manifest.replicates.max), "replicate");

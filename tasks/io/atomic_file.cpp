@@ -139,9 +139,9 @@ std::optional<int> descriptor_at(const fs::path& path) {
   return std::stoi(name);
 }
 
-/// Throws if another user can choose the target of a symbolic link: in a sticky folder that everyone can write to, such
-/// as /tmp, the link must belong to this user or to the owner of the folder. This is the rule of the kernel
-/// (fs.protected_symlinks), which does not apply here because the program reads the link itself.
+/// Throws if another user can choose the target of a symbolic link. This concerns sticky folders that everyone can
+/// write to, such as /tmp. There, the link must belong to this user or to the owner of the folder. This is the rule of
+/// the kernel (fs.protected_symlinks), which does not apply here because the program reads the link itself.
 void refuse_link_of_another_user(const fs::path& path) {
   struct stat link {
   }, folder{};

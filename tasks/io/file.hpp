@@ -25,7 +25,7 @@ class FileError : public std::runtime_error {
   /// Makes the error of the system call that has just failed; errno has the reason. The message is "path: what:
   /// reason".
   static FileError of_errno(const std::filesystem::path& path, std::string_view what);
-  /// Makes the error of a function that returned an error code. The message is the same.
+  /// Makes the error of a function that returned an error code. The message has the same form.
   static FileError of_error(const std::filesystem::path& path, std::string_view what, std::error_code error);
 
   Reason reason() const { return reason_; }

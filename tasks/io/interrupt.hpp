@@ -10,8 +10,8 @@ namespace isojam {
 
 /// While this object exists, SIGINT and SIGTERM cause a stop request instead of ending the process.
 ///
-/// The process ends with exit code 75 if it still runs after the time `patience`, or if a second signal arrives. No
-/// recorded result is lost in this case, because files are written atomically.
+/// The process ends with exit code 75 if it still runs when the time `patience` has passed since the signal, or if a
+/// second signal arrives. No recorded result is lost in this case, because files are written atomically.
 ///
 /// Create the object before any other thread. It blocks both signals and waits for them in its own thread, because a
 /// signal handler may not request a stop. Threads that are created later inherit the blocked signals.

@@ -49,8 +49,8 @@ class Problems {
   /// Suppresses later errors at this JSON pointer, because they are consequences of an error at another pointer.
   void settle(std::string pointer) { settled_.insert(std::move(pointer)); }
   /// If errors were collected, throws one InputError with all of them, in the order of the document. After the first
-  /// 100 errors, it states only how many more there are. If a required key is missing, the error has the position of
-  /// the object without this key.
+  /// 100 errors, it states only how many more there are. If a required key is missing, the error is listed at
+  /// the position of the object that lacks this key.
   void refuse_any(const Json& document) const;
 
  private:

@@ -5,15 +5,15 @@
 namespace isojam {
 
 /// Reads /protocol/by_solid. Then sets two parameters if the manifest does not: consolidation_evaluations of
-/// tetrahedra, and max_density of cubes (see densest_compression()) if the cells are large enough. `manifest` must
-/// already have its sweep, its protocol and its minimiser.
+/// tetrahedra, and max_density of cubes, which becomes densest_compression(). max_density is not set if a particle
+/// could then touch two images of another one. `manifest` must already have its sweep, its protocol and its minimiser.
 void read_by_solid(const JsonPlace& root, Manifest& manifest);
 
-/// Density above which cubes always have the target energy, plus the length of a strain step. Compression can therefore
-/// always reach the target energy below this limit. N particles of unit volume in a cell of volume N/φ overlap, so the
-/// intersections have a total volume of at least N(1 − 1/φ). With z neighbours per particle, E/N is then at least
-/// (1 − 1/φ)²/(2z), because E is the sum of V²/4. A cube in a crystal has z = 26 neighbours. The result is never
-/// smaller than max_density, and never larger than 2.
+/// Density above which cubes always have at least the target energy, plus the length of a strain step. If max_density
+/// is this sum, compression can always reach the target energy. N particles of unit volume in a cell of volume N/φ
+/// overlap, so the intersections have a total volume of at least N(1 − 1/φ). With z neighbours per particle, E/N is
+/// then at least (1 − 1/φ)²/(2z), because E is the sum of V²/4. A cube in a crystal has z = 26 neighbours. The result
+/// is never smaller than max_density, and never larger than 2.
 double densest_compression(const JamOptions& options);
 
 }  // namespace isojam

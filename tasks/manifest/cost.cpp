@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "engine/arithmetic/elementary.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 struct JamLaw {
   double compression, decompression, power;
 };
-constexpr std::array<JamLaw, all_solids.size()> jam_laws{{{2.3, 1.2, 0.54},     // tetrahedron
+constexpr std::array<JamLaw, all_solids.size()> jam_laws{{{3.3, 1.5, 0.54},     // tetrahedron
                                                           {1.8, 1.0, 0.6},      // cube
                                                           {1.3, 0.63, 0.57},    // octahedron
                                                           {1.25, 0.58, 0.69},   // dodecahedron
@@ -23,7 +24,11 @@ constexpr std::array<JamLaw, all_solids.size()> jam_laws{{{2.3, 1.2, 0.54},     
 /// The values of the parameters for which these times hold.
 constexpr double law_distance = 0.01, law_fraction = 0.35, law_step = 0.02, law_evaluations = 500, law_particles = 100;
 /// Powers of N, and of the number of evaluations for a state of the compression.
-constexpr double compression_size_power = 1.2, decompression_size_power = 1.8, evaluations_power = 0.6;
+constexpr double compression_size_power = 1.2, decompression_size_power = 1.75, evaluations_power = 0.6;
+/// Below law_distance, `power` increases by this for each doubling of N from N = 100.
+constexpr double power_of_doubling = 0.07;
+/// Target energy for which the times hold, its power in the time of a compression, and the smallest such factor.
+constexpr double law_energy = 3.2e-5, energy_power = 0.25, smallest_energy_factor = 0.5;
 /// Factors of the compression if the target applies before relaxation, and of both stages if the cell shape relaxes.
 constexpr double gentle = 0.65, free_cell = 1.2;
 
@@ -41,15 +46,19 @@ double steps_to(double distance, double fraction) {
 }
 
 double jam_seconds(const ReplicateSpec& spec) {
-  const auto& [compression, decompression, power] = law_of(spec.solid);
+  const auto& [compression, decompression, power_at_100] = law_of(spec.solid);
   const auto& first = spec.options.compression;
   const auto& second = spec.options.decompression;
   const double evaluations = std::min<double>(first.evaluations, first.relaxation == Consolidation::hasty ? 50 : 1e9);
   const double size = spec.particles / law_particles;
   double up = compression * law_step / first.step * nearest::pow(size, compression_size_power);
   up *= nearest::pow(std::min(evaluations, 16 * law_evaluations) / law_evaluations, evaluations_power);
+  up *= std::max(smallest_energy_factor, nearest::pow(first.target_energy / law_energy, energy_power));
   if (first.target_before_relaxation) up *= gentle;
   if (spec.start && spec.start->stage == JamStage::expansion) up = 0;
+  const bool is_near = second.final_distance < law_distance;
+  const double power =
+      power_at_100 + (is_near ? power_of_doubling * nearest::log(std::max(1.0, size)) / std::numbers::ln2 : 0);
   const double down = decompression * nearest::pow(law_distance / second.final_distance, power) *
                       nearest::log(1 - law_fraction) / nearest::log(1 - std::min(second.step_fraction, 0.9)) *
                       nearest::pow(size, decompression_size_power);
@@ -62,15 +71,20 @@ struct MeasureLaw {
   double at_100, power;
 };
 constexpr std::array measure_laws{
-    MeasureLaw{Measure::contacts, 0.009, 1},       MeasureLaw{Measure::order, 0.0025, 1.6},
-    MeasureLaw{Measure::clusters, 0.005, 1.1},     MeasureLaw{Measure::modes, 0.035, 1.75},
-    MeasureLaw{Measure::moduli, 0.05, 2},          MeasureLaw{Measure::strict, 0.05, 2},
-    MeasureLaw{Measure::rigidity, 0.03, 2},        MeasureLaw{Measure::backbone, 0.06, 3},
-    MeasureLaw{Measure::difference_modes, 0.5, 3}, MeasureLaw{Measure::prestress, 0.22, 1.6},
+    MeasureLaw{Measure::contacts, 0.01, 1},
+    MeasureLaw{Measure::order, 0.0027, 1.75},
+    MeasureLaw{Measure::clusters, 0.0065, 1.1},
+    MeasureLaw{Measure::modes, 0.046, 1.8},
+    MeasureLaw{Measure::moduli, 0.1, 2.1},
+    MeasureLaw{Measure::strict, 0.1, 2.1},
+    MeasureLaw{Measure::rigidity, 0.025, 2.5},
+    MeasureLaw{Measure::backbone, 0.06, 3},
+    MeasureLaw{Measure::difference_modes, 0.68, 2.3},
+    MeasureLaw{Measure::prestress, 0.28, 2.4},
     MeasureLaw{Measure::gaps, 0.065, 1.1},
 };
 /// The rank of the constraints takes this many times longer for tetrahedra, which have many states of self-stress.
-constexpr double rank_of_tetrahedra = 7;
+constexpr double rank_of_tetrahedra = 10;
 /// CPU seconds of a load step of the shear with N = 100.
 constexpr double shear_step = 0.1;
 

@@ -50,7 +50,7 @@ struct Manifest {
   std::vector<SweptField> swept;  ///< swept parameters, sorted by name
   Replicates replicates;
   JamOptions protocol;  ///< options of the protocol and of the minimiser
-  /// for names of solids in `solids`: the parameters of the protocol that have other values for this solid
+  /// key: the name of a solid in `solids`; value: the parameters of the protocol with their values for this solid only
   std::map<std::string, Json, std::less<>> by_solid{};
   std::vector<Measure> measures;
   MeasureOptions measuring;
@@ -79,9 +79,9 @@ std::vector<OptionSet> option_sets(const Manifest& manifest);
 JamOptions options_of(const Manifest& manifest, const OptionSet& set, const Mixture& solid);
 
 /// Parses a manifest and checks it in stages: first the JSON syntax and the checksum, then each value, then
-/// combinations of values, and last the files of /start without digests. Throws one InputError with all errors of the
-/// first stage that finds an error. `file` is the name of the manifest in error messages; paths in /start are relative
-/// to its folder.
+/// combinations of values, and last the files of /start if it has no digests. Throws one InputError with all errors of
+/// the first stage that finds an error. `file` is the name of the manifest in error messages; paths in /start are
+/// relative to its folder.
 Manifest parse_manifest(std::string_view text, const std::string& file);
 /// Reads a manifest of the user and checks it like parse_manifest(), but always reads the files of /start. The file
 /// name "-" means standard input. Throws FileError if the file cannot be read.

@@ -17,7 +17,7 @@ struct Start {
   /// density to which each packing is strained before the protocol starts; nullopt: packings are not strained
   std::optional<double> density;
   JamStage stage = JamStage::consolidation;  ///< first stage of the protocol
-  TypeNames types{};                         ///< the solids of types whose shapes are not in the files
+  TypeNames types{};                         ///< solids of the particle types whose shapes are not in the files
 };
 
 /// Reads {"packing": FILE or [FILE, …], "frame": k, "density": φ, "stage": "consolidation" or "expansion", "types":
@@ -33,7 +33,7 @@ Json to_json(const Start& start);
 /// - A file cannot be read, or does not contain a packing of the particles in the manifest.
 /// - A file has changed since its digest was computed.
 /// - The initial density is not below max_density, or is below half of consolidation_step.
-/// - The cell is not a cube, although the manifest prescribes the cell shape.
+/// - The cell is not a cube, but /protocol/cell is not "free": a prescribed cell shape is always a cube.
 /// - The cell is so small that a particle could touch two images of another one.
 /// - An overlap is larger than half of the volume of the smaller particle.
 void load_start(const JsonPlace& place, Manifest& manifest);

@@ -129,8 +129,8 @@ void look_at_density(const JamOptions& options, const Known& solid, Warnings& wa
                                          "{} packings jam at about {:.3g} and reach target_energy {} at about "
                                          "{:.2f}",
                                          name, solid.density, options.compression.target_energy, needed);
-  // Packings reach the target energy at different densities, so the mean density plus a margin is needed. To jam at
-  // all, no margin is needed.
+  // Packings reach the target energy at different densities, so the mean density plus a margin is needed. If the
+  // compression ends just above jamming (distance 0), no margin is needed.
   if (options.compression.max_density < needed + (distance == 0 ? 0 : scatter))
     warnings.add("max_density", name,
                  fmt::format("{} is too low{}: {}; increase max_density", options.compression.max_density,

@@ -217,8 +217,8 @@ class RandomContacts {
   std::vector<Shape> shapes_;
 };
 
-/// Angles of random contacts that include contacts of two edges. Contacts of a vertex and of two edges have the shares
-/// that they have for isotropic orientations of these solids.
+/// Angles of random contacts that include contacts of two edges. Contacts of a vertex with a face, and contacts of two
+/// edges, have the shares that they have for isotropic orientations of these solids.
 class IsotropicContacts {
  public:
   static RandomContact of(const Composition& solids, std::span<const Contact> contacts) {
@@ -260,8 +260,8 @@ class IsotropicContacts {
 };
 
 /// For a mixture: the mean number Z_ij of contacts of a particle of kind i with particles of kind j, and the mixing M.
-/// M is the share of contacts between particles of two kinds, divided by this share if the ends of all contacts were
-/// combined at random.
+/// M is the share of contacts between particles of different kinds, divided by the share that would result if the ends
+/// of all contacts were combined at random.
 void put_partial(Json& contacts, const Packing& packing, std::span<const Contact> all) {
   const auto kinds = static_cast<std::size_t>(packing.solids.kinds());
   if (kinds < 2) return;

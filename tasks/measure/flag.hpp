@@ -10,8 +10,8 @@ namespace isojam {
 
 /// Warnings in the record of a replicate that did not fail.
 enum class Flag : std::uint8_t {
-  /// Q6 of the nearest state, computed from all contacts, is above crystalline_q6; or the orientational order of this
-  /// state, or the mean alignment of its touching particles, is above its limit, see is_aligned()
+  /// one of two conditions for the nearest state: Q6, computed from all contacts, is above crystalline_q6; or the
+  /// orientational order, or the mean alignment of touching particles, is above its limit, see is_aligned()
   crystalline,
   not_balanced,      ///< a state that is not in equilibrium was accepted because of minimiser.energy_change
   goal_not_reached,  ///< the decompression ended farther from jamming than requested

@@ -154,8 +154,8 @@ PrestressSupport support_by(const StateStiffness& stiffness, const Modes& modes)
 
 constexpr std::string_view more = "all modes that were looked at are, and others may be";
 
-/// The number of modes. nullopt if all examined modes are counted and not all modes were examined, because there may be
-/// more.
+/// The number of modes with a property, of which `count` were found. nullopt if all examined modes above the tolerance
+/// have the property, but some modes were not examined: these may have it too.
 std::optional<double> known(const Modes& modes, const PrestressSupport& support, int count) {
   return modes.all || count < support.resolved ? std::optional<double>(count) : std::nullopt;
 }

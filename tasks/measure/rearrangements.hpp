@@ -7,9 +7,9 @@
 
 namespace isojam {
 
-/// Quantities of the decompression itself, which belong to no measure: the number of rearrangements, the number of
-/// steps, and means over rearrangements of the number of particles that moved and of the numbers of contacts that were
-/// lost and gained.
+/// Quantities of the decompression itself, which belong to no measure. They are the numbers of steps and of
+/// rearrangements, and three means over rearrangements: the numbers of moved particles, of lost contacts and of gained
+/// contacts.
 std::span<const Quantity> rearrangement_quantities();
 
 /// Writes these quantities to the record of a replicate. `path` is the list of all its strain steps, see

@@ -31,7 +31,7 @@ Json contact_record(const ContactAnalysis& analysis);
 /// crystalline. See Flag.
 std::vector<std::string> contact_flags(const ContactAnalysis& nearest);
 
-/// The finite number x, rounded to this number of significant digits. It keeps long lists short.
+/// The finite number x, rounded to `digits` significant digits. Rounding keeps the text of long lists short.
 double to_digits(double x, int digits);
 
 /// Numbers of positive values in logarithmic bins, five per decade. The same bins are used for all states.
@@ -58,8 +58,8 @@ class Histogram {
 std::optional<std::string_view> not_jammed(const Packing& packing, PackingEnergy& energy);
 
 /// Fits the exponent of y ∝ Δφ^exponent to the states with Δφ ≤ scaling_window. Writes the exponent, its
-/// ci95_half_width and the number of fitted states to the record of a replicate. `y` has one element for each state; it
-/// is nullopt if y is unknown.
+/// ci95_half_width and the number of fitted states to the record of a replicate. `y` has one element for each state; an
+/// element is nullopt if y is unknown in this state.
 void put_scaling(Json& replicate, const Quantity& exponent, const JamResult& jam,
                  const std::vector<std::optional<double>>& y);
 /// Largest Δφ of the states in these fits. It is the default fit window of φ_J. At larger Δφ, y does not follow one

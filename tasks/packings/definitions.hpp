@@ -15,7 +15,7 @@ inline constexpr std::size_t longest_solid_name = 48;  ///< largest number of ch
 /// A solid that a document defines.
 struct SolidDefinition {
   Solid solid;
-  RepairReport report{};               ///< the repairs that the document allowed
+  RepairReport report{};               ///< the repairs that were made; the document allowed them
   std::vector<std::string> omitted{};  ///< parts of the file that do not belong to the solid
 };
 
@@ -39,8 +39,9 @@ void check_solid_name(const JsonPlace& place, const std::string& name);
 /// A line of text with the features of a solid, the precision of its vertices, and the repairs.
 std::string definition_text(const SolidDefinition& definition);
 
-/// Warnings about a solid whose vertices were probably written with too few digits: it has faces that are almost in one
-/// plane. The text names these faces and the value of RepairOptions::merge that joins them. Empty if there are none.
+/// Warning about a solid with faces that are almost in one plane: its vertices were probably written with too few
+/// digits. The text names these faces and the value of RepairOptions::merge that joins them. Empty if no faces are
+/// almost in one plane.
 std::string precision_warning(const Solid& solid);
 
 /// Definitions of user-defined solids by their vertices, as JSON. null if there are no user-defined solids.

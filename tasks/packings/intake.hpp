@@ -11,15 +11,16 @@ namespace isojam {
 
 /// The corners of the solid that a mesh describes.
 struct Intake {
-  std::vector<Eigen::Vector3d> vertices;  ///< corners in the unit of length of the file, or joined and moved by repairs
+  std::vector<Eigen::Vector3d> vertices;  ///< corners in the unit of length of the file, after the repairs
   RepairReport report;                    ///< the repairs that were made
   std::vector<std::string> notes;         ///< parts of the file that do not belong to the solid
 };
 
 /// Decides which solid a mesh describes. With options.hull, this is the convex hull of the corners of its faces.
-/// Otherwise the mesh must be the surface of a convex solid; its faces may be divided. Nothing else is repaired unless
-/// `options` allows it. Throws ContentError with the line of a face and a remedy, which states the value of
-/// options.merge that would repair the mesh if there is one. Throws NoSolid if the repaired corners form no solid.
+/// Otherwise the mesh must be the surface of a convex solid, where a planar face may be divided into several polygons.
+/// Any other repair is made only if `options` allows it. Throws ContentError with the line of a face and a remedy. If a
+/// value of options.merge would repair the mesh, the remedy states it. Throws NoSolid if the repaired corners form no
+/// solid.
 Intake solid_in(const Mesh& mesh, const RepairOptions& options);
 
 }  // namespace isojam

@@ -20,10 +20,10 @@ std::vector<Eigen::Vector3d> read_vertices(const JsonPlace& place);
 /// causes is reported at this vertex.
 Solid solid_from(const JsonPlace& place, const std::string& name, const std::vector<Eigen::Vector3d>& vertices);
 
-/// Makes the same solid, but throws NoSolid if the vertices form no solid.
+/// Makes the same solid, but throws NoSolid instead of InputError if the vertices form no solid.
 Solid made_solid(const JsonPlace& place, const std::string& name, const std::vector<Eigen::Vector3d>& vertices);
-/// The vertex that causes an error, if the list of vertices has the length `points`. Otherwise the list, because the
-/// corners of a box have no entry in the document.
+/// The place of the vertex that causes `error`. It is the place `vertices` if no single vertex causes the error. It is
+/// also this place if `vertices` is not a list of all `points` vertices: the corners of a box are not in the document.
 JsonPlace place_of_error(const JsonPlace& vertices, const NoSolid& error, std::size_t points);
 
 /// The allowed numbers of features of a solid, as text for messages.

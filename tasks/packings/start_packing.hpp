@@ -22,8 +22,8 @@ struct StartFile {
 
 /// Makes the packing from the bytes of a file, and sets `digest`, `packing` and `notes`. The file must contain n
 /// particles of the mixture. It may be JSON that isojam wrote, which is read with all bits, or GSD or extended XYZ.
-/// `types` has the names of the solids of types without shapes. Throws ContentError if the file has another format or
-/// contains other particles.
+/// For each particle type without a shape, `types` has the name of its solid. Throws ContentError if the file has
+/// another format or contains other particles.
 void load(StartFile& file, const std::string& bytes, const Mixture& mixture, int n, const TypeNames& types);
 
 /// True if the particles of the packing are those of the mixture, in any order.

@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Files have seven digits or more. The last one is rounded, and the plane through three such points deviates more at a
-/// distance. In units of the diameter.
+/// Tolerance in units of the diameter. Coordinates in files have at least seven digits, and the last digit is rounded.
+/// The tolerance is larger than this rounding: the plane through three rounded points deviates more at a distance.
 constexpr double digits = 1e-5;
 
 using Loop = std::vector<std::size_t>;
@@ -38,7 +38,7 @@ struct Distinct {
   int unused = 0;
 };
 
-/// False for a face with fewer than three different corners. Writers of files leave such faces anywhere in space.
+/// False for a face with fewer than three different corners. Some programs write such faces at arbitrary positions.
 bool spans_area(const Mesh& mesh, const Mesh::Face& face) {
   std::size_t different = 0;
   for (std::size_t k = 0; k < face.points.size() && different < 3; ++k) {

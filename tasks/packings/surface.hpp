@@ -7,8 +7,8 @@
 
 namespace isojam {
 
-/// Exception: the faces of a mesh are not the surface of a convex solid. `deviation` is the length, relative to the
-/// diameter, by which points would have to be moved; 0 if no move of points could help.
+/// Exception: the faces of a mesh are not the surface of a convex solid. `deviation` is the distance, relative to the
+/// diameter, by which points would have to be moved to make them one. It is 0 if moving points cannot achieve this.
 class NoSurface : public ContentError {
  public:
   NoSurface(const std::string& problem, std::string remedy, std::size_t line, double deviation = 0)
@@ -36,7 +36,8 @@ inline constexpr std::size_t most_surface_points = 5000;
 Surface points_of(const Mesh& mesh);
 
 /// Tolerance of the checks, in units of the diameter, for a mesh whose points are welded within `merge` diameters. It
-/// is 1e-5 or 2·merge, whichever is larger. The first value is one unit in the sixth digit; files have seven or more.
+/// is 1e-5 or 2·merge, whichever is larger. 1e-5 is one unit in the sixth digit of a coordinate, and coordinates in
+/// files have at least seven digits.
 double surface_tolerance(double merge);
 
 /// Checks that the faces form one closed surface, that all of them are planar, and that it has no dents. Points within

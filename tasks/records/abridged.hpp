@@ -10,8 +10,8 @@ namespace isojam {
 
 /// The part of a record that tables and `isojam status` need.
 struct Abridged {
-  /// The record without `path` and `checksum`. Lists inside its members are empty, except in `spec` and `provenance`,
-  /// and except the histograms of angles.
+  /// The record without `path` and `checksum`. Its members `spec` and `provenance` are complete. In every other member,
+  /// only the histograms of angles are complete: all other lists inside the member are empty.
   Json record;
   std::string result_digest;  ///< result_digest() of the whole record
 };

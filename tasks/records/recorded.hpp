@@ -24,10 +24,10 @@ struct RecordedReplicate {
 /// missing or damaged, if its result digest is wrong, or if it describes another replicate than its name.
 RecordedReplicate read_record(const std::filesystem::path& directory, const std::string& name);
 
-/// The same with less time, for tables. The key `path` is missing in `record`, and lists inside its states may be
-/// empty, except histograms of angles.
+/// Reads the same record in less time, for tables. The key `path` is missing in `record`, and lists inside its states
+/// may be empty, except histograms of angles.
 RecordedReplicate read_abridged_record(const std::filesystem::path& directory, const std::string& name);
-/// The same with still less time, for `isojam status`. The list of states may be empty.
+/// Reads the same record in still less time, for `isojam status`. The list of states may be empty.
 RecordedReplicate read_record_without_states(const std::filesystem::path& directory, const std::string& name);
 
 /// True if the record has the result that this plan requests, apart from measures. This is the case if the identity()
@@ -67,8 +67,8 @@ void expect_directory(const std::filesystem::path& directory);
 /// The manifest in a results directory; nullopt if there is none. Throws FileError if the manifest cannot be read at
 /// the moment. Throws InputError if the manifest is damaged or not valid.
 std::optional<Manifest> stored_manifest(const std::filesystem::path& directory);
-/// The manifest in a results directory. Throws the same exceptions as stored_manifest(). If there is no manifest,
-/// throws InputError if the directory has records. Otherwise throws FileError, like expect_directory().
+/// The manifest in a results directory. Throws the same exceptions as stored_manifest() and expect_directory(). If the
+/// directory has records but no manifest, throws InputError. If it has neither, throws FileError.
 Manifest own_manifest(const std::filesystem::path& directory);
 
 /// Names of the JSON files in a folder, sorted and without extension. Empty if the folder does not exist. Hidden files,

@@ -19,8 +19,8 @@ struct Results {
 };
 
 /// Reads a results directory. It warns about the same records as for_each_record() and skips them. Throws FileError if
-/// the directory has no records, or if a file cannot be read at the moment. Throws InputError if the manifest or
-/// another record is damaged.
+/// the directory has no records, or if a file cannot be read at the moment. Throws InputError if the manifest is
+/// damaged, or a record that is not skipped.
 Results read_results(const std::filesystem::path& directory, const Warn& warn);
 
 /// Reads the nearest state of a replicate from its packing file; nullopt if there is no such file. Throws InputError if

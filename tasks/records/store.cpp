@@ -89,8 +89,8 @@ const Manifest& larger(const std::optional<Manifest>& before, const Manifest& ma
   return !before || contains_sweep(manifest, *before) ? manifest : *before;
 }
 
-/// Throws if a record belongs to another manifest. Checks records that are not in the plan, or all records if `all` is
-/// true because the directory has no manifest, or another one.
+/// Throws if a record belongs to another manifest. Checks the records that are not in the plan. If `all` is true,
+/// checks all records. `all` is true if the directory has no manifest or a manifest with another digest.
 void check_records(const fs::path& directory, const Manifest& manifest, bool all, const Warn& warn) {
   const auto names = names_in(directory / "records");
   if (names.empty()) return;

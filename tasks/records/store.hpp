@@ -40,11 +40,12 @@ class Store {
   Store(std::filesystem::path directory, const Manifest& manifest, Warn warn);
 
   /// Summary of the record of this replicate; nullopt if there is no valid record. The replicate must then be computed.
-  /// A record is not valid in these cases, in which `warn` is called:
-  /// - The file is damaged.
-  /// - It does not have all measures of the manifest.
-  /// - It records a resource failure.
-  /// - Its packing is damaged or missing.
+  /// A superseded record is not valid, see is_superseded(). A record is also not valid in these cases, in which `warn`
+  /// is called:
+  /// - The file of the record is damaged.
+  /// - The record does not have all measures of the manifest.
+  /// - The record states a resource failure.
+  /// - The packing of the replicate is damaged or missing.
   /// - The manifest keeps paths, and the path of the replicate is damaged or missing.
   ///
   /// Throws InputError if the record belongs to another manifest. Throws FileError if a file cannot be read at the

@@ -31,8 +31,8 @@ struct Survey {
     /// Only with a stopping rule: its quantity for each recorded replicate, by number of the replicate. nullopt if the
     /// replicate has no value or is excluded.
     std::map<int, std::optional<double>> goal_values;
-    /// Measured CPU time divided by the estimated CPU time: over the records of this point that did not fail, or, if
-    /// there are none, over those of all points. 1 without records.
+    /// Total measured CPU time divided by the total estimated CPU time. The sums are over the records of this point
+    /// that did not fail. If this point has no such record, the sums are over those of all points. 1 if there are none.
     double calibration = 1;
   };
   std::vector<Point> points;        ///< one element for each sweep point of the plan

@@ -38,10 +38,10 @@ class Adder {
   Adder(const Store& store, const std::vector<ReplicateSpec>& replicates);
 
   /// The stages that add measures. They use this object, which must outlive them. `begin` restores the run from the
-  /// record and the path, or the packing if the path was not kept. `jam` relaxes saddles to minima if a measure needs
-  /// minima and no measure in the record did. `measure` takes a measure from the record if the record has it and no
-  /// state has changed. Otherwise it computes the measure, and marks a measurement of the nearest state alone
-  /// (Measurement::nearest_only).
+  /// record and the path, or from the record and the packing if the path was not kept. `jam` relaxes saddles to minima
+  /// if a measure needs minima, but no measure in the record needed them. `measure` takes a measure from the record if
+  /// the record has it and no state has changed. Otherwise it computes the measure, and marks a measurement of the
+  /// nearest state alone (Measurement::nearest_only).
   Stages stages();
 
   /// Replaces the record by one with all measures. Returns nullopt, or the reason if this failed; the record is then

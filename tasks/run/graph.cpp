@@ -1,8 +1,8 @@
 // This is a flow graph instead of a parallel loop over replicates, because the stages differ in memory and cost, and
-// files are written one after the other. The limiter bounds the number of replicates at the same time, because each
-// keeps all packings of its decompression until it is stored. All measures of a replicate are tasks of one node, and no
-// thread waits for another one to finish a measure. If fewer replicates than threads are left, idle threads help in the
-// pair loops of the stages.
+// files are written one after the other. The limiter bounds the number of replicates in memory, because each of them
+// keeps all packings of its decompression until its outcome is stored. All measures of a replicate are tasks of one
+// node, and no thread waits for another one to finish a measure. If fewer replicates than threads are left, idle
+// threads help in the pair loops of the stages.
 
 #include "tasks/run/graph.hpp"
 
@@ -277,8 +277,8 @@ void build_and_wait(Run& run, int in_flight) {
 int default_threads() { return tbb::info::default_concurrency(); }
 
 void with_threads(int threads, const std::function<void()>& work) {
-  // oneTBB 2022 waits forever if an allocation fails while it makes the arena. 4 MiB are more than the arena needs: if
-  // they are not available, this throws std::bad_alloc before.
+  // oneTBB 2022 waits forever if an allocation fails while it makes the arena. The arena needs less than 4 MiB. If this
+  // memory is not available, the next line throws std::bad_alloc before the arena is made.
   void* volatile room = ::operator new (std::size_t{4} << 20);
   ::operator delete(room);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));

@@ -17,8 +17,9 @@ struct GraphOptions {
   std::function<void(const ReplicateSpec&, const Checkpoint&)> on_step;
 };
 
-/// Returns the next replicate to run, or nullopt if there are no more. It is called by one thread at a time, at most a
-/// few replicates before they can start. The memory therefore does not depend on the number of replicates.
+/// Returns the next replicate to run, or nullopt if there are no more. It is called by one thread at a time. It is not
+/// called again while a few returned replicates still wait for their start. The memory therefore does not depend on the
+/// number of replicates.
 using NextReplicate = std::function<std::optional<ReplicateSpec>()>;
 
 /// Runs all stages of every replicate, and passes one outcome for each replicate to `on_outcome`, one at a time, in any

@@ -220,7 +220,7 @@ std::optional<Differences> Aggregation::differences(const PointKey& key, const P
   const auto& [solid, particles, parameters] = key;
   auto others = parameters;
   for (const auto& item : base_.items()) {
-    // If records of several manifests are combined, some may have been swept over other parameters.
+    // If records of several manifests are combined, this row may be of a sweep without this parameter.
     if (!parameters.contains(item.key())) return std::nullopt;
     others[item.key()] = item.value();
   }

@@ -46,7 +46,7 @@ struct GoalOutcome {
 /// and manifest, one of each row. Both have the same initial configuration, so most of the spread between packings
 /// cancels in the difference.
 struct Differences {
-  int pairs = 0;  ///< number of pairs in which both replicates neither failed nor are excluded
+  int pairs = 0;  ///< number of pairs in which no replicate failed or is excluded
   /// estimates of the value in this row minus the value in the base row, over the pairs in which both replicates have a
   /// value
   Estimates estimates = no_estimates();

@@ -139,7 +139,7 @@ Cells point_cells(const Row& row, const std::vector<std::string>& parameters, Fo
 /// Quantities whose differences are printed. JSON and CSV contain the differences of all quantities.
 constexpr std::array compared_quantities{"phi_j", "Z", "Z_ff", "C"};
 
-/// Lines with the differences of the rows from their base. Only the heading if no row has a base.
+/// Lines with the paired differences of the rows from their base rows. Only the heading if no row has a base row.
 std::vector<Cells> difference_lines(const Table& table, const std::vector<std::string>& parameters, Format format) {
   std::vector<Cells> lines{point_head(parameters, format)};
   lines[0].emplace_back("pairs");

@@ -23,8 +23,8 @@ class PackedAngles {
   AngleHistogram unpacked() const;
 
  private:
-  /// Number of contacts in a bin of θ_ff, in a bin of θ_ef without the contacts that an entry with both bins contains,
-  /// or in a bin of both. In the first two cases, the bin of the other angle is `any`.
+  /// A number of AngleHistogram: an element of `face_face`, an element of `edge_face_apart`, or a cell. In the first
+  /// two cases, the bin of the other angle is `any`.
   struct Entry {
     std::uint8_t face_face, edge_face;
     float contacts;

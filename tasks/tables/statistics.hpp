@@ -67,10 +67,10 @@ std::optional<double> student_half_width(std::vector<double> values);
 std::optional<double> stein_scale(std::vector<double> first);
 
 /// Half width of Stein's 95 % confidence interval of the mean of n values: t_{0.975, m−1} · s / √n, where s is the
-/// standard deviation of the first m values. If n depends only on s, the interval of normal values contains the true
-/// mean with a probability of exactly 95 %, because the mean of n values does not depend on s (C. Stein, Ann. Math.
-/// Stat. 16, 243 (1945)). nullopt if m < 2. The result has the same bits for any order of `first`; it equals
-/// student_half_width() if n = m.
+/// standard deviation of the first m values. Let the values be normally distributed, and let n depend only on s. The
+/// interval then contains the true mean with a probability of exactly 95 %, because for every n, the mean of n values
+/// is independent of s (C. Stein, Ann. Math. Stat. 16, 243 (1945)). nullopt if m < 2. The result has the same bits for
+/// any order of `first`; it equals student_half_width() if n = m.
 std::optional<double> stein_half_width(std::vector<double> first, std::size_t n);
 
 /// Replaces the interval of `estimate` by Stein's.

@@ -43,7 +43,8 @@ std::string to_text(const Table& table, View view = View::nearest, const TextOpt
 /// if there are none, and for points of a series. Each quantity has columns for mean, low and high end of the 95 %
 /// confidence interval, sd, n, and low and high end of the bootstrap interval. A field without a value is empty.
 std::string to_csv(const Table& table, View view = View::nearest);
-/// The same lines, but with a separate line for each quantity. An additional column contains the name of the quantity.
+/// The same data as CSV, but each line of to_csv() is divided into one line for each quantity. An additional column
+/// contains the name of the quantity.
 std::string to_long_csv(const Table& table, View view = View::nearest);
 
 /// The tables as LaTeX: the same as the text, with a tabular environment for each table.

@@ -27,7 +27,8 @@ struct DefinedSolid {
   Solid solid;
 };
 
-/// Eight solids in each of eleven ways of writing them. Faces with four or more corners are exactly planar in none.
+/// Eight solids in each of eleven ways of writing them. As written, no face with four or more corners is exactly
+/// planar.
 const std::vector<DefinedSolid>& defined_solids();
 
 /// A polyhedron with vertices of 100 digits.

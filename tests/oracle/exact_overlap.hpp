@@ -50,9 +50,9 @@ struct ExactOverlap {
   /// False if a face of A and a face of B lie in one plane and share a part of the boundary. S and M are then
   /// discontinuous; the values here count the shared part as a part of A.
   bool single_valued = true;
-  /// Upper limit of the effect of rounding on S: the area of the boundary that may change between A and B if the face
-  /// planes move by plane_rounding(). It consists of strips along the contact loop, and of whole faces where faces of A
-  /// and B nearly coincide.
+  /// Upper limit of the effect of rounding on S: the area of those parts of the boundary that can belong to A or to B
+  /// if the face planes move by plane_rounding(). It consists of strips along the contact loop, and of whole faces
+  /// where faces of A and B nearly coincide.
   double contested_area = 0;
   /// bits of the faces of which a part with positive area bounds the intersection
   std::uint32_t faces_a = 0, faces_b = 0;

@@ -26,7 +26,8 @@ QuadEvaluation evaluate_in_quad(const Packing& packing);
 
 /// The gradient ∂E/∂(x, R·θ) with 6N entries, in the order of Evaluation::gradient.
 std::vector<Quad> gradient_of(const QuadEvaluation& evaluation, const Packing& packing);
-/// The gradient of E + p V, followed by the derivatives with respect to the free strains ℓ·ε.
+/// The gradient of E + p V_cell, followed by its derivatives with respect to the coordinates ℓ·ε of the free strains,
+/// with ℓ = strain_length() (cell/control.hpp).
 std::vector<Quad> gradient_of(const QuadEvaluation& evaluation, const Packing& packing, const CellControl& control);
 
 /// The central difference (gradient(packing + h·direction) − gradient(packing − h·direction))/2h. Gradients are in

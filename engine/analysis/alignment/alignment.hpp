@@ -13,8 +13,8 @@ struct Alignment {
   /// θ_ff = π − arccos(min n_i·n_j), over the faces i of A and j of B that bound the intersection, with outward normals
   /// n
   double face_face = 0;
-  /// θ_ef = arcsin(min |e·n|), over edges e of one solid with a segment inside the other solid, and over faces of the
-  /// other solid that bound the intersection; e is the unit vector along the edge, and n the normal of the face
+  /// θ_ef = arcsin(min |e·n|), where e is the unit vector along an edge of one solid, and n the normal of a face of the
+  /// other solid. Only edges with a segment inside the other solid and faces that bound the intersection are used.
   double edge_face = 0;
   int face_a = -1, face_b = -1;  ///< indices of the two faces of θ_ff; −1 if there is no such face
   /// indices of the edge and of the face of θ_ef; −1 if there is no such pair

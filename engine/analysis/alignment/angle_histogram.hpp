@@ -24,15 +24,15 @@ int angle_bins_below(double upper);
 /// Numbers of contacts in bins of the logarithms of their alignment angles. Numbers are not integers if histograms are
 /// combined with weights.
 struct AngleHistogram {
-  std::vector<double> face_face = std::vector<double>(angle_bins);  ///< numbers of contacts by θ_ff, for each bin
+  std::vector<double> face_face = std::vector<double>(angle_bins);  ///< number of contacts in each bin of θ_ff
   /// Contacts with both angles in given bins. angle_histogram() lists only the contacts with θ_ff in the first
-  /// `face_face_window` bins. After add(), cells beyond the smaller window remain.
+  /// `face_face_window` bins. add() keeps cells beyond the smaller of both windows.
   struct Cell {
     int face_face = 0, edge_face = 0;  ///< bins of the two angles
     double contacts = 0;
   };
   std::vector<Cell> cells;  ///< sorted by (face_face, edge_face), without repetition
-  /// numbers of the contacts that are not in `cells`, by θ_ef, for each bin
+  /// number of contacts in each bin of θ_ef, without the contacts in `cells`
   std::vector<double> edge_face_apart = std::vector<double>(angle_bins);
   /// The cut-offs of θ_ff and θ_ef must lie in the first `face_face_window` and `edge_face_window` bins. A window is 0
   /// if the upper limit of the cut-off is below the accuracy of the angles.
@@ -41,8 +41,8 @@ struct AngleHistogram {
   double contacts() const;  ///< number of all contacts
   /// Adds `weight` times another histogram. Each window is then the smaller of the two.
   void add(const AngleHistogram& other, double weight = 1);
-  /// Counts the contacts with θ_ff in bin `face_face_bins` or above, in bins of θ_ef. Requires face_face_bins ≤
-  /// face_face_window. With face_face_bins = 0, the numbers are those of all contacts.
+  /// Number of contacts in each bin of θ_ef. Only contacts whose bin of θ_ff is `face_face_bins` or above are counted;
+  /// with face_face_bins = 0, these are all contacts. Requires face_face_bins ≤ face_face_window.
   std::vector<double> edge_face_of_others(int face_face_bins) const;
 };
 

@@ -42,7 +42,7 @@ struct CdfFit {
   double error = 0;     ///< squared deviation ∫ (c_f − c)² dθ over [0, upper]
   /// Largest deviation |c_f − c| above the jump, where c ≥ a_0. In 5 % of all sets of n independent angles, c deviates
   /// from the true distribution by more than 1.358/√n. A curve that is fitted to the angles is nearer to c than the
-  /// true distribution, so it exceeds this limit in fewer than 5 %.
+  /// true distribution is. The deviation of the curve therefore exceeds this limit in fewer than 5 % of all sets.
   double deviation = 0;
   /// Cut-off θ_cut in radians, defined by c(θ_cut) = a_0. c is a step function, which is constant between successive
   /// angles. The cut-off is the upper end of the interval on which c is nearest to a_0, and at most `upper`. The

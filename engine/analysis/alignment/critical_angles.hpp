@@ -33,8 +33,8 @@ CriticalAngles critical_angles(const ConvexSolid& a, const ConvexSolid& b);
 CriticalAngles critical_angles(const Mixture& mixture);
 
 /// True if the solid is regular. The test is that all edges have the same dihedral angle, and all faces have the same
-/// number of sides. At all vertices, the edges must also have the same angle with the line from the centroid to the
-/// vertex, and so must the face normals.
+/// number of sides. Two more angles must be the same at all vertices. They are measured from the line through the
+/// centroid and the vertex: one to the edges at the vertex, the other to the normals of the faces at the vertex.
 bool has_like_features(const ConvexSolid& solid);
 
 /// Computes the critical angles from the largest dihedral angle and the normal cones of all vertices, for any solid.

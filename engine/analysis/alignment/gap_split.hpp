@@ -44,9 +44,9 @@ struct GapSplit {
   double separation = 0;  ///< largest fraction η
   /// Value that η must exceed for the verdict `separated`: 3/4 + quantile·√(0.075/n) for n angles below `upper`.
   /// Reason: if the logarithms are uniformly distributed, η has the mean 3/4 and the standard deviation √(0.075/n). The
-  /// standard deviation is computed to first order in the influence of each angle, (4u − 3u² − 1)·3/4 with u uniform on
-  /// [0, 1]. A distribution ∝ θ^p without a gap gives a smaller η: the logarithms are then distributed exponentially,
-  /// and η = max t²/(e^t − 1) = 0.648 for any p.
+  /// standard deviation is computed to first order: one angle changes η by (4u − 3u² − 1)·3/(4n), with u uniform
+  /// between 0 and 1. A distribution ∝ θ^p without a gap gives a smaller η: the logarithms are then distributed
+  /// exponentially, and η = max t²/(e^t − 1) = 0.648 for any p.
   double critical = 0;
   int below = 0;  ///< number of angles below the cut-off
 };

@@ -20,8 +20,8 @@ namespace isojam {
 ///   edge-face constrained  An edge lies in the face. All edges and all rotations about the edge are equally likely,
 ///                          and θ_ef = 0. For a regular solid with dihedral angle δ, θ_ff is uniform on [0, π/2 − δ/2].
 /// If all faces, edges and vertices of the solid are equivalent, the distributions have a closed form. Otherwise they
-/// are computed from a stratified sample, except that θ_ff has a closed form below half of the smallest angle between
-/// two face normals.
+/// are computed from a stratified sample. Only the distribution of θ_ff below half of the smallest angle between two
+/// face normals then also has a closed form.
 class RandomAlignment {
  public:
   /// Method to compute the distributions.
@@ -92,8 +92,8 @@ struct Randomness {
   double angle = 0;                                           ///< upper end of the range of angles near 0, in radians
   long below = 0;                                             ///< number of angles in this range
   double expected = 0;  ///< number of angles that random contacts would have in this range
-  /// for random contacts, the smaller of two binomial probabilities: of at least `below` angles in this range, and of
-  /// at most `below` angles
+  /// for random contacts, the smaller of two binomial probabilities: that at least `below` angles are in this range,
+  /// and that at most `below` angles are
   double probability = 1;
 };
 

@@ -35,10 +35,10 @@ ContactShares contact_shares(const ContactSize& a, const ContactSize& b);
 
 /// Distributions of alignment angles of contacts in which an edge of A crosses an edge of B. The probability of an edge
 /// is proportional to ℓ α. Four normals belong to such a contact: the normals of the two faces at the edge of A, and of
-/// the two faces at the edge of B. The direction of the common normal of both edges is uniformly distributed between
-/// the two normals at the edge of A, and between those at the edge of B. The angle ψ between the edges has the density
-/// sin²ψ: one factor sin ψ for the area of the parallelogram, and one for the rotations in which the two arcs of
-/// normals cross (Poincaré).
+/// the two faces at the edge of B. The directions between the two normals at an edge form an arc. The direction of the
+/// common normal of both edges is uniformly distributed on the arc of A and on the arc of B. The angle ψ between the
+/// edges has the density sin²ψ: one factor sin ψ for the area of the parallelogram, and one for the rotations in which
+/// the two arcs cross (Poincaré).
 ///   θ_ff   smallest angle between a normal of A and the negative of a normal of B. Its cumulative distribution is
 ///          4 ⟨1/(α_A α_B)⟩ θ² for θ → 0, where ⟨ ⟩ is the mean over the edges.
 ///   θ_ef   sin θ_ef = sin ψ · (smallest sine of an angle between the common normal and one of the four normals)

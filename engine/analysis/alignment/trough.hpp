@@ -28,8 +28,9 @@ inline constexpr std::array enum_names<TroughVerdict>{EnumName{TroughVerdict::no
 /// maximum of a Brownian excursion, so that E > t √n has the probability
 ///     P(t) = 2 Σ_{k≥1} (4k²t² − 1) exp(−2k²t²) ≈ 2 (4t² − 1) exp(−2t²)   (K. L. Chung, Ark. Mat. 14, 155 (1976)).
 /// The segment with the largest E/√n has a trough if E exceeds its critical value t √n. Here t satisfies
-/// m·2 (4t² − 1) exp(−2t²) = 0.05, and m is the number of segments with more than t² angles: E is at most n, so that
-/// smaller segments cannot exceed t √n. A density without a trough is therefore misjudged in at most 5 % of all cases.
+/// m·2 (4t² − 1) exp(−2t²) = 0.05, and m is the number of segments with more than t² angles. Smaller segments are not
+/// counted: E is at most n, and n is at most t √n in them. A density without a trough is therefore misjudged in at most
+/// 5 % of all cases.
 ///
 /// Position. In the segment with the largest E/√n, E is reached at the position s where the density falls below its
 /// mean in the segment. The angles below s and above s are the two populations. The density is estimated with a
@@ -40,9 +41,9 @@ inline constexpr std::array enum_names<TroughVerdict>{EnumName{TroughVerdict::no
 /// Edges. Let the tails of both populations be exponential near the minimum, f = f_min cosh((x − x_min)/a). Each tail
 /// has a·f_min/2 angles beyond the minimum. A cut-off that is moved to where f = (√5/2) f_min crosses the same number
 /// of angles. The edges are where f exceeds the larger of two values. One is (√5/2) f_min. The other is the upper limit
-/// of f_min by Poisson noise, n + 1 + √(n + 3/4) for n angles within the kernel (N. Gehrels, Astrophys. J. 303, 336
-/// (1986)).
-/// Half of the difference between the constraint numbers at both edges is the systematic error.
+/// of f_min with its Poisson noise: if the kernel at the minimum contains j angles, the upper limit of this number is j
+/// + 1 + √(j + 3/4) (N. Gehrels, Astrophys. J. 303, 336 (1986)). Half of the difference between the constraint numbers
+/// at both edges is the systematic error of the constraint number.
 struct Trough {
   TroughVerdict verdict = TroughVerdict::not_called;  ///< result of the search
   /// Positions of the minimum and of the edges of the trough, with low ≤ cutoff ≤ high; 0 unless the verdict is found.

@@ -20,7 +20,8 @@ inline constexpr int narrow_edges = SolidArrays::narrow_edges, wide_edges = Smal
 
 enum class LoopVerdict : std::uint8_t {
   separated,  ///< a face separates the solids, or no edge of A or B has a point inside the other solid
-  /// every segment has two ends, so the loop is the boundary between the parts of the surface that belong to A and to B
+  /// both ends of every segment were found. The loop is then the boundary between the two parts of the surface of the
+  /// intersection that belong to A and to B
   closed,
   /// a vertex lies on a plane within rounding errors, the loop is not closed, or one solid contains the other
   degenerate
@@ -89,8 +90,9 @@ template <int edges>
 using LoopWith = ContactLoop<std::conditional_t<(edges <= SmallSolids::edges), SmallSolids, LargeSolids>>;
 
 /// Finds the loop of A and B, where r = x_B − x_A (lab frame). `loop` is overwritten. `edges` must be narrow_edges,
-/// wide_edges or large_edges, and no solid may have more edges. Narrow and wide loops are the same, bit by bit. In a
-/// large loop, the positions of corners are the same if no two planes intersect an edge within 128 ulp.
+/// wide_edges or large_edges, and no solid may have more edges. Narrow and wide loops are the same, bit by bit. The
+/// corners of a large loop have the same positions too, unless two planes intersect an edge at points less than 128 ulp
+/// apart.
 template <int edges>
 void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, LoopWith<edges>& loop);
 /// Finds the loop in the same way, but computes small distances in double-double. They are then correct to their last

@@ -30,10 +30,11 @@ struct LargeSolids {
 };
 static_assert(LargeSolids::capacity % 4 == 0 && SolidArrays::max_vertices <= LargeSolids::capacity);
 
-/// The slab between two planes perpendicular to the line of centres: the plane through the vertex of A that is farthest
-/// in the direction of B, and the plane through the vertex of B that is farthest in the direction of A. The
+/// The slab between two planes perpendicular to the line of centres. One plane contains the vertex of A that is
+/// farthest in the direction of B. The other one contains the vertex of B that is farthest in the direction of A. The
 /// intersection lies in the slab. `of_a` and `of_b` are the vertices, edges and faces that are at least partly in the
-/// slab; no other features belong to the intersection. Empty if the solids are separated along the line of centres.
+/// slab; no other features belong to the intersection. Both are empty if the solids are separated along the line of
+/// centres.
 template <class Solids>
 struct Slab {
   Parts<Solids::words> of_a, of_b;
@@ -137,8 +138,8 @@ inline void repeat(int n, const Function& function) {
   for (int k = 0; k < n; ++k) function(k);
 }
 
-/// Calls `function` with the number of vectors. The number is a compile-time constant if a Platonic solid has this
-/// number.
+/// Calls `function` with the number of vectors of 4 planes. The argument is a compile-time constant if the faces of a
+/// Platonic solid need this number of vectors.
 template <class Function>
 void with_vectors(int vectors, const Function& function) {
   switch (vectors) {

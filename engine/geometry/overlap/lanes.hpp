@@ -80,9 +80,9 @@ template <int k>
 Lanes lane(Lanes a) {
   return {_mm256_permute4x64_pd(a.v, 0b01010101 * k)};
 }
-/// Compares 16 pairs of bytes with `all`. If b_k is byte k of `bytes`, bit e of the result is set if b_t | b_h = `all`,
-/// where t = tail[e], h = head[e], and e = 0 … 15. All t and h must be below 8. `tail` and `head` must be aligned to 16
-/// bytes.
+/// Compares 16 pairs of bytes with `all`. Let b_k be byte k of `bytes`, t = tail[e] and h = head[e]. Then bit e of the
+/// result is set if b_t | b_h = `all`, for e = 0 … 15. All t and h must be below 8. `tail` and `head` must be aligned
+/// to 16 bytes.
 inline std::uint32_t equal_unions(std::uint64_t bytes, const std::uint8_t* tail, const std::uint8_t* head,
                                   std::uint32_t all) {
   const __m128i table = _mm_cvtsi64_si128(static_cast<long long>(bytes));

@@ -22,7 +22,7 @@ struct Numbers {
   static constexpr std::uint32_t all_pairs = faces * faces;
   static constexpr int corners = 4 * limit;
 
-  /// EdgeRecord::pairs, which are numbered for 32 faces, converted to this number of faces.
+  /// Converts EdgeRecord::pairs, which contain numbers for 32 faces, to numbers for `faces` faces.
   static std::uint32_t pairs(const EdgeRecord& edge, std::uint32_t of_b) {
     return edge.pairs[of_b] << (bits - 5) * (of_b ^ 1);
   }

@@ -44,7 +44,7 @@ struct Overlap {
 /// which the two surfaces intersect. Notation: v → w is a segment of C, on face i of A and face j of B. Segments are
 /// oriented counter-clockwise, seen from outside A. Coordinates are relative to the point x_A + p, where p is
 /// ContactLoop::origin. The point is the midpoint of the centres. For very small or narrow contacts in double-double,
-/// it is a vertex of the loop:
+/// it is a corner of the intersection instead. Then
 ///   S_A = ½ Σ_C v×w
 ///   M_A = p×S_A − ½ Σ_C (w−v)(|v|² + v·w + |w|²)/3
 ///   V   = Σ_f ∫_f h n_P·n_f dA  over the faces f of the intersection, h the height over the least-penetrated plane P
@@ -59,11 +59,11 @@ struct Overlap {
 /// rounding errors, `axis` is set to its normal, for later use with separates(). If only another axis separates them,
 /// `axis` is set to Kind::none. The overload with a DoubleDoubleVector r uses A, B and r in double-double. The relative
 /// errors of V, S and M are then at most 1e-12, also for very flat and very small contacts, unless the intersection is
-/// much longer than wide. This is the case if an edge is parallel to a face except for an angle as small as the depth.
-/// The coordinates along the edge then have rounding errors that are large relative to the width, and the bound is
+/// much longer than wide. This is the case if the angle between an edge and a face is as small as the depth. The
+/// coordinates along the edge then have rounding errors that are large relative to the width, and the bound is
 ///   1e-12 + 16 ε √(V_s/V), ε = 2.2e-16, V_s the volume of the smaller solid.
-/// The median of the errors is at most 1e-13. Without such narrow intersections, it is at most 1e-15 for V < 1e-8. The
-/// error of M is relative to |S| times the inradius.
+/// The median of the errors is at most 1e-13. Without such narrow intersections, the median is at most 1e-15 for V <
+/// 1e-8. The error of M is relative to |S| times the inradius.
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis);
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, SeparatingAxis& axis);
 

@@ -14,9 +14,9 @@ struct Penetration {
 };
 
 /// Finds the axis with the smallest depth among all face normals and all vector products of two edges. If double
-/// precision cannot decide between two axes, quadruple precision is used. Vector products are used only in the
-/// direction from A to B, which is correct unless the centres nearly coincide. The function is slow, because it
-/// computes the depth for every axis.
+/// precision cannot decide between two axes, quadruple precision is used. The vector product of two edges can have two
+/// directions. Only the direction from A to B is used, which is correct unless the centres nearly coincide. The
+/// function is slow, because it computes the depth for every axis.
 Penetration penetration(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose);
 
 }  // namespace isojam

@@ -36,7 +36,7 @@ SeparatingAxis best_axis(const PlacedSolid& a, const PlacedSolid& b, const Eigen
 inline double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const Eigen::Vector3d& r) {
   return 4 * std::numeric_limits<double>::epsilon() * (r.lpNorm<1>() + a.circumradius() + b.circumradius());
 }
-/// The same, with r in the body frame of A.
+/// The same value for a relative pose.
 double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
 /// True if the gap of the placed solids along the axis is larger than gap_tolerance(), where r = x_B − x_A. False for

@@ -13,8 +13,8 @@ inline double fine_below(const ConvexSolid& a, const ConvexSolid& b) {
   return std::max(a.scale(), b.scale()) * std::min(a.fine_below(), b.fine_below());
 }
 
-/// Distance below which an overlap in double-double computes distances in double-double: 2e-3 times fine_below(). For
-/// larger distances, the rounding error gap_tolerance() is relatively below 1e-11.
+/// Limit of small distances, 2e-3 times fine_below(): if r is in double-double, overlap() computes distances below this
+/// limit in double-double. The rounding error gap_tolerance() of larger distances is below 1e-11 of the distance.
 inline double double_double_below(const ConvexSolid& a, const ConvexSolid& b) { return 2e-3 * fine_below(a, b); }
 
 /// Distance n·(y − to_other) − offset of a vertex y of `body` from a face plane of `other`. It is negative inside, and

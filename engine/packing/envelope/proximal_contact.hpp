@@ -48,7 +48,7 @@ struct ProximalContact {
   int iterations = 0;                  ///< number of overlaps with Hessian that were computed
   bool touching = false;               ///< true if A touches the ghost of B
   bool converged = true;               ///< false if Newton's method found no minimum
-  /// true for the contact itself, Φ = e, without an envelope; `root` is then not set
+  /// true if there is no envelope, so that Φ = e (plain_contact()); `root` is then not set
   bool plain = false;
 
   /// Second derivatives of Φ, computed by eliminating w from the second derivatives of e(w) + ½ ρ |w|² − μ·w. Their

@@ -39,8 +39,8 @@ class Mixture {
   const std::string& name() const { return name_; }                 ///< name in files and messages
 
   /// Makes a list of n particles, sorted by kind. counts() gives the number m of particles of each kind. The sizes of
-  /// these particles are the quantiles (k + ½)/m of the distribution of sizes, k = 0 … m − 1. Then all sizes are scaled
-  /// so that the mean volume is 1. If all sizes are equal, every scaled size is exactly 1.
+  /// the m particles of one kind are the quantiles (k + ½)/m of its distribution of sizes, k = 0 … m − 1. Then all
+  /// sizes are scaled so that the mean volume is 1. If all sizes are equal, every scaled size is exactly 1.
   std::vector<Particle> particles(int n) const;
   /// Number of particles of each kind in a packing of n particles: the fraction times n, rounded by the method of
   /// largest remainders.
@@ -59,8 +59,8 @@ class Mixture {
 inline std::string_view to_string(const Mixture& mixture) { return mixture.name(); }
 
 /// Smallest number n such that a cubic cell with n particles of the mixture is legal at density φ and at all lower
-/// densities: no particle can touch two images of another one (is_legal() in cell/periodic_cell.hpp). If the particles
-/// are not identical, the result is at most 2^17, even if more particles would be needed.
+/// densities. In a legal cell, no particle can touch two images of another one (is_legal() in cell/periodic_cell.hpp).
+/// If the particles are not identical, the result is at most 2^17, even if more particles would be needed.
 int least_particles(const Mixture& mixture, double density);
 
 }  // namespace isojam

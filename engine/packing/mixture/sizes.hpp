@@ -33,8 +33,8 @@ struct Sizes {
   double sigma = 0;  ///< for `log_normal`: standard deviation of ln V, where V is the volume
   std::vector<SizeShare> list{};  ///< for `discrete`: the sizes; their fractions sum to 1
 
-  /// Quantile of a continuous distribution: the fraction `share` of the particles has at most this size. For
-  /// `discrete`, the fractions are added in the order of the list, which need not be sorted. Requires 0 < share < 1.
+  /// Quantile: the fraction `share` of the particles has at most this size. For `discrete`, it is the first size of the
+  /// list at which the sum of the fractions reaches `share`; the list need not be sorted. Requires 0 < share < 1.
   double quantile(double share) const;
   /// Text that describes the sizes in the name of a mixture: "" for the fixed size 1, otherwise for example "1.4",
   /// "0.8to1.2" or "1ln0.3".

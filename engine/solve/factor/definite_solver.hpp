@@ -11,13 +11,14 @@
 namespace isojam {
 
 /// Solves (H + shift·1) x = b for a positive definite matrix. The cost of a complete factorisation grows faster than
-/// the square of the number of particles. Large systems are therefore first tried with conjugate gradients, whose
-/// preconditioner is an incomplete factorisation. If they do not converge soon, the complete factorisation follows.
+/// the square of the number of particles. For large systems, solve() therefore first uses conjugate gradients with an
+/// incomplete factorisation as the preconditioner. If this method does not converge soon, solve() uses the
+/// complete factorisation.
 class DefiniteSolver {
  public:
-  /// Returns nullopt if the matrix is not positive definite, as far as the method notices. Conjugate gradients end when
-  /// √(r·P⁻¹r) is at most `tolerance` times its initial value. r is the residual vector and P the preconditioner. The
-  /// numbers of operations are added to `work`.
+  /// Returns nullopt if the matrix is found to be not positive definite. Conjugate gradients can overlook this. They
+  /// end when √(r·P⁻¹r) is at most `tolerance` times its initial value, where r is the residual vector and P the
+  /// preconditioner. The numbers of operations are added to `work`.
   std::optional<Eigen::VectorXd> solve(const BlockMatrix& matrix, double shift, const Eigen::VectorXd& b,
                                        double tolerance, MinimiseWork& work);
 

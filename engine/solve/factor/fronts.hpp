@@ -13,7 +13,7 @@ namespace isojam {
 /// a front: places 0 … columns − 1 are the columns of the supernode, and the places that follow are its rows.
 struct Handover {
   int child = 0;
-  /// place in the parent of each row of the child; ascending
+  /// for each row of the child, its place in the parent; ascending
   std::vector<int> places;
   /// indices in `places` at which runs of consecutive places begin; a run contains only columns or only rows of the
   /// parent
@@ -48,7 +48,7 @@ struct Front {
   std::ptrdiff_t update_at(int row, int column) const;
 };
 
-/// Place of an off-diagonal block of the matrix in the memory of the factors.
+/// Position at which an off-diagonal block of the matrix is stored in the array of all factors.
 struct BlockPlace {
   int block = 0;            ///< index of the block in BlockMatrix::off_diagonal
   std::ptrdiff_t at = 0;    ///< index in the array of all factors

@@ -15,8 +15,8 @@ std::vector<int> minimum_degree_order(const BlockMatrix& matrix);
 /// The order by nested dissection (METIS, Karypis & Kumar 1998). Throws std::bad_alloc if METIS runs out of memory.
 std::vector<int> dissection_order(const BlockMatrix& matrix);
 
-/// One of these two orders, selected by the number of particles: the order with which an ordering and a factorisation
-/// together take less time.
+/// The minimum-degree order for few particles, and the dissection order for many. The limit is chosen so that the
+/// computation of the order and the factorisation together take less time.
 std::vector<int> fill_reducing_order(const BlockMatrix& matrix);
 
 }  // namespace isojam

@@ -20,10 +20,10 @@ constexpr std::ptrdiff_t size(int count, int columns) { return std::ptrdiff_t{he
 constexpr std::ptrdiff_t packed_size(int count) { return std::ptrdiff_t{height} * height * count * (count + 1) / 2; }
 
 /// Threads that process the panels of a front: only the calling thread, or all threads of for_each_in_forest(). `all`
-/// may be used only inside a call of for_each_in_forest(). Both give the same bits.
+/// may be used only inside a call of for_each_in_forest(). `one` and `all` give the same bits.
 enum class Threads { one, all };
 
-/// Calls run(k) for every k < count, either in this order on the calling thread, or on all threads.
+/// Calls run(k) for k = 0, …, count − 1, either in this order on the calling thread, or in any order on all threads.
 template <class Run>
 void for_each(int count, Threads threads, const Run& run) {
   if (threads == Threads::all) return for_each_index_within(count, [&run](std::size_t k) { run(static_cast<int>(k)); });
@@ -31,9 +31,8 @@ void for_each(int count, Threads threads, const Run& run) {
 }
 
 /// Computes the Cholesky factorisation A = L Lᵀ. A has `width` rows and columns, and `width` is a multiple of 6. Only
-/// the lower half of A is read. It is replaced by L, and 1/L_kk is written to `reciprocals`. The matrix B,
-/// which has `count` panels of `width` columns, is replaced by B L⁻ᵀ. Returns false if a pivot is not a positive
-/// number.
+/// the lower half of A is read. This half is replaced by L, and 1/L_kk is written to `reciprocals`. The matrix B, which
+/// has `count` panels of `width` columns, is replaced by B L⁻ᵀ. Returns false if a pivot is not a positive number.
 bool factorise(double* a, int width, double* reciprocals, double* b, int count, Threads threads);
 
 /// Computes the symmetric matrix C = −X Xᵀ, stored as its lower half. X has `count` panels of `width` columns.

@@ -22,8 +22,8 @@ class ShiftInvert {
 
   Eigen::Index rows() const { return matrix_.rows(); }
   Eigen::Index cols() const { return rows(); }
-  /// Factorises H − σ·1. Throws std::domain_error if a pivot is zero or not finite. This happens if H contains NaN, or
-  /// if σ is within rounding errors an eigenvalue of H or of a leading part of H.
+  /// Factorises H − σ·1. Throws std::domain_error if a pivot is zero or not finite. This happens if H contains NaN. It
+  /// also happens if σ is, within rounding errors, an eigenvalue of H or of a leading submatrix of the reordered H.
   void set_shift(double sigma);
   /// Computes y = (H − σ·1)⁻¹ x. x and y have rows() entries.
   void perform_op(const double* x, double* y) const;

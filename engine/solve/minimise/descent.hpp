@@ -32,7 +32,8 @@ class Descent {
   double last_step() const { return last_step_; }
   /// Upper limit of the displacement of a particle in one trial step, in units of V_p^(1/3).
   double longest_displacement() const;
-  /// Computes the second derivatives and the incipient contacts of any packing, for a probe distance (V_p^(1/3)).
+  /// Computes the second derivatives and the incipient contacts (IncipientContact) of any packing. The probe distance
+  /// is in units of V_p^(1/3).
   SecondOrder second_order(const Packing& packing, double probe_distance);
   /// Evaluates the packing `there`, which `step` reaches from `from`. The current packing does not change. If the new
   /// cell is not legal (is_legal() in packing/cell/periodic_cell.hpp), the result has an infinite energy, and the
@@ -64,7 +65,8 @@ class Descent {
   MinimiseWork work_;
 };
 
-/// Largest displacement |dx| or R|dθ| of a particle in a step. Free strains ℓ·ε count as displacements.
+/// Largest displacement |dx| or R|dθ| of a particle in a step. The free strains ℓ·ε (packing.hpp) count as
+/// displacements.
 double largest_displacement(const Eigen::VectorXd& step);
 
 MinimiseSummary minimise_conjugate_gradient(Descent& descent);

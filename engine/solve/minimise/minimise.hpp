@@ -12,9 +12,10 @@
 namespace isojam {
 
 /// Method of minimisation. With `multipliers`, jam() follows an equilibrium through each decompression step near
-/// jamming (solve/multipliers/). jam() also uses this method for the first state of a decompression if the residual of
-/// its start is large. In minimise(), `multipliers` is the same as `newton`. The methods `conjugate_gradient`, `fire`
-/// and `lbfgs` do not converge near jamming. They are available for comparison, and compression always uses `lbfgs`.
+/// jamming (solve/multipliers/). jam() also uses this method to find the first state of a decompression, if the
+/// packing from which it starts has a large residual. In minimise(), `multipliers` is the same as `newton`. The methods
+/// `conjugate_gradient`, `fire` and `lbfgs` do not converge near jamming. They are available for comparison.
+/// Compression always uses `lbfgs`.
 enum class Method { conjugate_gradient, fire, lbfgs, newton, multipliers };
 template <>
 inline constexpr std::array enum_names<Method>{

@@ -16,8 +16,8 @@ struct ActivePairs {
   std::vector<std::pair<int, int>> closing, tilted;
 };
 
-/// The factorisation that all models of one minimisation share, so that its symbolic part is computed only once, and
-/// the numbers of its uses.
+/// The factorisation that all models of one minimisation share, and the numbers of its uses. It is shared so that its
+/// symbolic part is computed only once.
 struct StepFactor {
   BlockCholesky cholesky;
   long factorisations = 0;
@@ -32,7 +32,7 @@ struct ModelStep {
 
 /// Model of the energy for a step s: the series E + g·s + ½ s·H s, and two effects that this series does not contain.
 ///   1. Closing: a pair begins to touch, or a vertex contact becomes flat. The model of the overlap volume is
-///      V = max(0, now, closed), with the two tangents of IncipientContact.
+///      V = max(0, now, closed), where `now` and `closed` are the two tangents of IncipientContact.
 ///   2. Tilting: the faces of a flat contact can rotate relative to each other until the line in which their planes
 ///      intersect crosses the faces. From then on, the contact has a stiffness against this rotation.
 /// The pairs that close or tilt in a step form its active set. The active set and the step are computed together.

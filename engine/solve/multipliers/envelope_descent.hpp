@@ -9,9 +9,9 @@
 namespace isojam {
 
 /// Minimises the envelope Φ (EnvelopeEvaluation) by Levenberg–Marquardt steps in Krylov spaces (KrylovModel). If
-/// contacts form or break, the model of a
-/// step is wrong for a few pairs. The particles of these pairs are relaxed separately before the step is accepted or
-/// rejected (local_relaxation.hpp). This costs little, and few steps are then rejected.
+/// contacts form or break in a step, the model of the step is wrong for a few pairs. The particles of these pairs are
+/// relaxed separately before the step is accepted or rejected (local_relaxation.hpp). This relaxation costs little, and
+/// few steps are then rejected.
 class EnvelopeDescent {
  public:
   EnvelopeDescent(EnvelopeEvaluator& evaluator, MinimiseWork& work);

@@ -54,8 +54,8 @@ Eigen::Matrix3d strain_of(const Eigen::VectorXd& step, int particles);
 /// The step (x, R·θ) of B in a contact, including the motion of its image relative to A due to the strain ε.
 Vector6d step_of_b(const EnvelopeContact& contact, const Eigen::VectorXd& step, const Eigen::Matrix3d& strain);
 
-/// Multipliers and estimates of the shifts w after a step (packing.hpp). The multipliers do not change. The shifts
-/// change to first order in the step.
+/// Multipliers and shifts w after a step (packing.hpp). The multipliers do not change. The shifts are estimated to
+/// first order in the step.
 std::vector<ContactMultiplier> forces_after(const EnvelopeState& state, const Eigen::VectorXd& step);
 
 /// True if the decrease of Φ from `from` to `to` is large enough compared with the predicted decrease. If the predicted

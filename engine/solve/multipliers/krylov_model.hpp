@@ -20,8 +20,7 @@ struct KrylovStep {
 
 /// Quadratic model g·s + ½ s·M s of a function, projected onto a Krylov space. The vectors P⁻¹g, P⁻¹M q₁, P⁻¹M q₂, …
 /// span the space, where P is a preconditioner. The orthonormal basis of the space is Q = (q₁, q₂, …). With the
-/// eigenvalues E and
-/// eigenvectors U of Qᵀ M Q, the step for a shift λ is
+/// eigenvalues E and eigenvectors U of Qᵀ M Q, the step for a shift λ is
 ///   s = −Q U (|E| + λ)⁻¹ Uᵀ Qᵀ g.
 /// One space therefore gives the steps for all shifts. M may be indefinite: since |E| replaces E, the step then leads
 /// away from the saddle (saddle-free Newton method, Dauphin et al. 2014).
@@ -60,10 +59,10 @@ class KrylovModel {
 
 /// Builds Krylov models for a sequence of similar matrices. It chooses the shift λ_P of the preconditioner
 /// P ≈ M + λ_P·1. If λ_P is too small, the factorisation fails; if it is too large, the space needs more vectors. λ_P
-/// decreases slowly from model to model. It is at least λ, and at least three times the magnitude of the last negative
-/// eigenvalue. If the factorisations are complete, λ_P begins at λ.
-/// Soft modes can remain outside the largest space if P is an incomplete factorisation. The factorisations of the next
-/// models are then complete, until a matrix is indefinite.
+/// decreases slowly from model to model, and increases after a failed factorisation. It is at least λ, and at least
+/// three times the magnitude of the last negative eigenvalue. For a complete factorisation, λ_P begins at λ.
+/// If P is an incomplete factorisation, soft modes can remain outside the space. After a model that is incomplete(),
+/// factorisations are therefore complete, until a matrix is indefinite.
 class KrylovModels {
  public:
   /// `shift` is the first λ_P.

@@ -15,7 +15,7 @@ std::vector<char> mispredicted(const EnvelopeState& here, const EnvelopeState& t
                                double predicted_decrease);
 
 /// Minimises Φ with respect to the flagged particles only. The method is a few Levenberg–Marquardt steps; the first one
-/// has the Levenberg–Marquardt parameter `shift`. The steps end when the predicted decrease of a step is a small
+/// has the Levenberg–Marquardt shift `shift`. The steps end when the predicted decrease of a step is a small
 /// fraction of `predicted_decrease`. Returns true if `state` was changed. The cost is low, because the linear systems
 /// contain only a few particles. Without this function, a contact that forms or breaks would often cause the whole step
 /// to be rejected.

@@ -20,7 +20,7 @@ MinimiseSummary follow_equilibrium(Packing& packing, double density, double dist
                                    const MinimiseOptions& options, std::stop_token stop = {});
 
 /// Follows an equilibrium, in the same way as follow_equilibrium(), while its cell is deformed: the new lattice vectors
-/// are f·h. `f` must be close to the identity.
+/// are the columns of f·h, where the columns of h are the old ones. `f` must be close to the identity.
 MinimiseSummary follow_deformation(Packing& packing, const DoubleDoubleMatrix& f, double distance,
                                    PackingEnergy& energy, const MinimiseOptions& options, std::stop_token stop = {});
 

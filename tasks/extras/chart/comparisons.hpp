@@ -12,7 +12,8 @@ namespace isojam {
 /// Number of modes that compare_modes() computes with each solver.
 inline constexpr int modes_compared = 50;
 
-/// The families of a comparison, with names, errors and notes, but without points. Empty for the atlas.
+/// The families of a comparison, with names, definitions of the errors and notes, but without points. Empty for the
+/// atlas.
 std::vector<ChartFamily> empty_families(Comparison comparison);
 
 // Each comparison except the atlas has one function, which adds points to the families of the comparison. After the
@@ -20,9 +21,9 @@ std::vector<ChartFamily> empty_families(Comparison comparison);
 
 /// Compares minimisers that start from the same states, for several tolerances. In the family `equilibrium`, the error
 /// is the residual. In the family `bias`, the error is |φ_J − φ_J of the reference|. The reference has a residual of
-/// 1e-9: for the method `multipliers` it is found by `multipliers`, and for all other methods by `newton`, because the
-/// two may follow different solution branches. If a method does not reach a tolerance, smaller tolerances are not
-/// tried, because the method would end in the same state.
+/// 1e-9. For the method `multipliers` it is found by `multipliers`, and for all other methods by `newton`. Two
+/// references are needed, because these two methods may follow different solution branches. If a method does not reach
+/// a tolerance, smaller tolerances are not tried, because the method would end in the same state.
 void compare_minimisers(std::span<const JammedSolid> jammed, const Measuring& measuring, ChartFamily& equilibrium,
                         ChartFamily& bias);
 
@@ -41,9 +42,9 @@ void compare_modes(std::span<const TaskEquilibria> tasks, const Measuring& measu
 /// is the relative error of V. Points of methods that compute S also contain its error.
 void compare_overlaps(const Measuring& measuring, ChartFamily& family);
 
-/// Compares settings of the protocol. The time is the CPU time of all replicates. The error is the absolute difference
-/// between the mean φ_J of the replicates and that of the first setting, plus half the width of the 95 % confidence
-/// interval of the mean.
+/// Compares settings of the protocol. The time is the CPU time of all replicates of a setting. Let m be their mean φ_J.
+/// The error is the absolute difference between m and the mean φ_J of the first setting, plus half the width of the
+/// 95 % confidence interval of m.
 void compare_protocols(const Measuring& measuring, ChartFamily& family);
 
 /// Measures the CPU time of a replicate with the default protocol, of one equilibrium, and of one evaluation, for

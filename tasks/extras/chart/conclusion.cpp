@@ -118,9 +118,8 @@ std::string arrival_text(const std::vector<Standing>& order, double residual) {
 
 using Names = std::vector<std::string>;
 
-/// Text such as "newton in 5 of 6 cases and fire in 1": each method with the number of its cases, the largest number
-/// first, and with the distances of these cases if they differ from those of all other cases. `others` are the other
-/// cases of a method.
+/// Text such as "newton in 5 of 6 cases and fire in 1". It lists each method with the number of its cases, the largest
+/// number first. The text of where_text() follows if it is not empty. `others` are the other cases of each method.
 std::string counts_text(const std::map<std::string, Names>& by_method, const std::map<std::string, Names>& others) {
   std::vector<std::pair<std::string, Names>> order(by_method.begin(), by_method.end());
   std::stable_sort(order.begin(), order.end(),

@@ -21,10 +21,10 @@ struct Standing {
 /// then by time. A setting may reach this residual even if it failed to reach the residual that it requested.
 std::vector<Standing> standings(std::span<const ChartPoint> points, double residual);
 
-/// Makes lines of text, with whole sentences. For each residual that was requested, largest first, a line states which
-/// methods of the family `equilibrium` reach it in all cases, which one is the fastest, and which ones miss it. The
-/// last line states the residuals and the errors of φ_J with the paper's stopping rule, if it was measured. `bias`
-/// contains the points of the family `bias`.
+/// Makes lines of text, with whole sentences, in which tasks are called cases. There is one line for each residual that
+/// was requested, largest first. It states which methods of the family `equilibrium` reach the residual in all tasks,
+/// which one is the fastest, and which ones miss it. If the paper's stopping rule was measured, the last line states
+/// the residuals and the errors of φ_J with this rule. `bias` contains the points of the family `bias`.
 std::vector<std::string> conclusion(std::span<const ChartPoint> equilibrium, std::span<const ChartPoint> bias);
 
 }  // namespace isojam

@@ -57,7 +57,8 @@ struct EndState {
   bool reached() const { return is_equilibrium(summary) || summary.reason == StopReason::energy_change; }
 };
 
-/// If a minimisation was stopped from outside, the reason is `point_seconds`. After a signal there is no point.
+/// Text of the reason. A signal or the time limit `point_seconds` can interrupt a minimisation. The text names only the
+/// time limit, because no state is kept after a signal.
 std::string stopped_text(StopReason reason) {
   return std::string(reason == StopReason::interrupted ? "interrupted by the time limit" : to_string(reason));
 }

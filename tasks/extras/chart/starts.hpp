@@ -38,8 +38,8 @@ struct StrainStart {
 /// if there is no such state.
 std::optional<StrainStart> start_at(const JammedSolid& jammed, double distance);
 
-/// The equilibrium after this strain step. It is found by minimise() with the default method, with a residual of 1e-9
-/// or at the residual floor. nullopt if no equilibrium is found.
+/// The equilibrium after the strain step of start_at(). It is found by minimise() with the default method, with a
+/// residual of 1e-9 or at the residual floor. nullopt if no equilibrium is found.
 std::optional<Packing> equilibrium_at(const JammedSolid& jammed, double distance, const Measuring& measuring);
 
 /// Equilibria of packings of one solid at one distance to jamming. The pair of solid and distance is called a task.
@@ -53,7 +53,8 @@ struct TaskEquilibria {
 /// the distance is left out. After a stop request, all further packings are left out.
 std::vector<TaskEquilibria> all_equilibria(std::span<const JammedSolid> jammed, const Measuring& measuring);
 
-/// The dynamical matrix of an equilibrium, computed in double-double.
+/// The Hessian of an equilibrium, computed in double-double. For Platonic solids of unit volume, it is equal to the
+/// dynamical matrix.
 BlockMatrix double_double_hessian(const Packing& packing);
 
 /// Name of a task, such as "octahedron, Δφ = 0.015".

@@ -45,7 +45,7 @@ struct ExportArguments {
 std::vector<std::string> chosen_names(const ExportArguments& arguments);
 
 /// Reads a record with read_record(). If there is a plan and the record does not belong to it, throws InputError. A
-/// failed record whose settings have changed since is accepted, see is_superseded().
+/// failed record is accepted even if the plan now has other settings for its replicate, see is_superseded().
 RecordedReplicate own_record(const ExportArguments& arguments, const std::optional<Plan>& plan,
                              const std::string& name);
 

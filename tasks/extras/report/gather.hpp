@@ -13,8 +13,9 @@ namespace isojam {
 /// - exclude: flags that exclude a replicate from means
 /// - builds: provenance of the records; each one occurs once
 /// - measures: measures that at least one record has
-/// - addable: all other measures, which "isojam measure" can add; keeps_paths: false if the manifest does not keep
-///   paths, so that it can add them only for the nearest states
+/// - addable: all other measures, which "isojam measure" can add
+/// - keeps_paths: false if the manifest does not keep paths; "isojam measure" then adds measures only for the nearest
+///   states
 /// - columns: {"name", "group", "unit", "latex"} of all quantities, in the order of tables
 /// - parameters: names of the swept parameters, and for each the heading of its column
 /// - rows: the rows of tables.json. Each also has "label", "paper" (φ_J of Table I, or null), "scaling" (power laws of

@@ -17,7 +17,8 @@
 namespace isojam {
 namespace {
 
-/// Numbers of units per length and per component of a mode. More digits would not be visible on a screen.
+/// Lengths are rounded to multiples of 1/length_unit, and components of modes to multiples of 1/mode_unit. More digits
+/// would not be visible on a screen.
 constexpr double length_unit = 1e5, mode_unit = 1e3;
 /// Forces are in thousandths of the largest one, and points of contacts in hundredths of a length.
 constexpr double force_parts = 1000, place_parts = 100;

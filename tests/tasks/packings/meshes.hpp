@@ -96,7 +96,7 @@ inline std::string binary_stl(const Triangles& list) {
   return bytes;
 }
 
-/// Triangles whose corners differ by about 1e-6, as some programs write them.
+/// Triangles whose common corners differ by up to 1e-6 in each coordinate, as some programs write them.
 inline Triangles jittered(Triangles list) {
   unsigned state = 7;
   for (auto& triangle : list) {

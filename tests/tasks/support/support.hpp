@@ -79,7 +79,7 @@ Json without_checksum(Json document);
 /// The record of an outcome as it is read from its file.
 Json record_on_disk(const Outcome& outcome);
 
-/// Artificial contacts, for which both fits gave a cut-off.
+/// Artificial contacts with the contact number Z = z, for which both fits gave a cut-off.
 ContactAnalysis made_up_contacts(double z);
 /// Replaces the contacts of the nearest state of an artificial outcome.
 void set_nearest_contacts(Outcome& outcome, const ContactAnalysis& analysis);

@@ -12,8 +12,8 @@
 
 namespace isojam {
 
-// The stability atlas shows in which range each method is valid. A regime is a known difficulty. For each regime, cells
-// of increasing severity are tested with each method.
+// The stability atlas shows in which range each method is valid. A regime is a known difficulty, and a cell of the
+// atlas is this difficulty at one severity. For each regime, cells of increasing severity are tested with each method.
 
 enum class AtlasVerdict {
   holds,
@@ -47,8 +47,9 @@ inline constexpr double atlas_overlap_tolerance = 1e-6;
 /// precision. Takes seconds.
 std::vector<AtlasRow> overlap_atlas();
 
-/// Tests of energies. In the smallest cells, the energy is compared with a sum over all images. It must not change if
-/// the packing is rotated, translated or renumbered, or if units change or particles are exchanged. Takes seconds.
+/// Tests of energies and forces. In the smallest periodic cells, the energy is compared with a sum over all images. In
+/// other tests, the packing is rotated, translated or renumbered, the unit of length changes, or particles are
+/// exchanged. The energy must then not change, and the forces must only rotate with the packing. Takes seconds.
 std::vector<AtlasRow> packing_atlas();
 
 /// Tests of minimisers that start from strained states, from an equilibrium, from a packing with a vacancy and from an

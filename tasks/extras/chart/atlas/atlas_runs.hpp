@@ -22,7 +22,7 @@ struct AtlasRun {
 };
 
 /// Makes a short form of the atlas. Regimes and methods have the same order as in the atlas. For each regime and
-/// method, the group with the verdict `holds` comes first, followed by one group for each other reason.
+/// method, the group with the verdict `holds` comes first. One group follows for each other verdict and reason.
 std::vector<AtlasRun> atlas_runs(std::span<const AtlasRow> rows);
 
 }  // namespace isojam

@@ -7,7 +7,7 @@ namespace isojam {
 /// The energy of all pairs of particles and images, including pairs of a particle and its own image, by clipping in
 /// quadruple precision. It is correct for every cell in the atlas, however small.
 double energy_over_images(const Packing& packing);
-/// The energy of each pair of particles, with only the nearest image.
+/// The energy of all pairs of particles, with only the nearest image of each pair.
 double energy_of_nearest_images(const Packing& packing);
 
 /// A packing of n tetrahedra at random positions near the corner of a cell. They are so close together that all of them

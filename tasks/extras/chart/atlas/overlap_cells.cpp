@@ -104,7 +104,8 @@ QuadQuaternion random_turn(RandomStream& random) {
   return q;
 }
 
-/// Adds a cell for each kernel. Each has the worst result over all designs in random orientations.
+/// Adds a cell for each kernel. It makes `samples` designs and gives each pair a random orientation. The cell has the
+/// worst result of these pairs.
 void append_cell(const std::string& regime, const std::string& setting,
                  const std::function<PairDesign(int sample, RandomStream&)>& design, std::vector<AtlasRow>& rows) {
   std::vector<ConstructedPair> pairs;

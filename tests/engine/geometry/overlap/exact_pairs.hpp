@@ -64,8 +64,8 @@ double found_volume(const PosedPair& pair);
 std::optional<PosedPair> at_volume(Approach approach, double volume,
                                    double (*measure)(const PosedPair&) = exact_volume);
 
-/// The dual solid: its vertices are the planes of the other solid. The dual of a solid with many faces has many
-/// vertices.
+/// The dual of `solid`: for each face with the unit normal n and the distance h from the centre, it has the vertex n/h.
+/// The dual of a solid with many faces has many vertices.
 ConvexSolid dual(const std::string& name, const ConvexSolid& solid);
 
 /// n random points on a sphere. In their convex hull, all points are vertices and all faces are triangles.

@@ -4,7 +4,8 @@
 
 namespace isojam::test {
 
-/// Expected verdicts of a method in a regime: one letter for each setting, in the order of the atlas.
+/// Expected verdicts of the stability atlas (atlas.hpp) for a method in a regime: for each setting, in the order of the
+/// atlas, the first letter of an AtlasVerdict. '?' accepts `holds` and `refuses`.
 struct ExpectedCells {
   const char *regime, *method, *verdicts;
 };
