@@ -78,7 +78,9 @@ std::optional<std::string> read_columns(const std::string& text, std::optional<s
 /// Prints the tables. Writes no file except the one that --output names.
 ExitCode print_tables(const AggregateArguments& arguments, Console& console) {
   const Warn warn = [&](const std::string& message) { console.warn(message); };
-  const auto table = table_of(arguments.directories, warn, arguments.choices);
+  auto choices = arguments.choices;
+  choices.series = arguments.series || arguments.format == TableFormat::json || !arguments.output.empty();
+  const auto table = table_of(arguments.directories, warn, choices);
   // A base on the command line must match a row. A base of the manifest may belong to a row whose replicates have not
   // run yet.
   if (const auto problem = arguments.choices.base ? misplaced_base(table) : std::nullopt) {

@@ -17,7 +17,10 @@ namespace {
 constexpr std::string_view angles_key = angle_bins_pointer.substr(angle_bins_pointer.rfind('/') + 1);
 
 /// Part of a value that is kept.
-enum class Keep : std::uint8_t { nothing, short_lists, all };
+enum class Keep : std::uint8_t { short_lists, all };
+
+/// Largest number of nested objects and lists.
+constexpr int deepest = 30;
 
 /// One step of hash_of().
 std::uint64_t hashed(std::uint64_t hash, char c) { return (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U; }
@@ -70,19 +73,18 @@ class Reader {
     return std::all_of(value.begin(), value.end(), is_plain);
   }
 
-  bool scalar(Json* into) {
+  bool scalar(Json& into) {
     const auto ends = [](char c) { return c == ',' || c == '\n' || c == ' ' || c == ']' || c == '}'; };
     const auto* const begin = text_.begin() + at_;
     const std::string_view token(begin, std::find_if(begin, text_.end(), ends));
     take(token.size());
-    if (!into) return !token.empty();
     const auto number = [&]<class T>(T value) {
       const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
-      *into = value;
+      into = value;
       return error == std::errc() && end == token.data() + token.size();
     };
     if (token == "null" || token == "true" || token == "false") {
-      if (token != "null") *into = token == "true";
+      if (token != "null") into = token == "true";
       return true;
     }
     if (token.find_first_of(".e") != std::string_view::npos) return number(double{});
@@ -103,20 +105,19 @@ class Reader {
     return take_if(last);
   }
 
-  bool list(Json* into, Keep keep, int depth) {
-    if (into) *into = Json::array();
-    if (keep == Keep::short_lists && depth > 0) into = nullptr;
-    return entries(']', [&] { return value(into ? &into->emplace_back() : nullptr, keep, depth + 1); });
+  bool list(Json& into, Keep keep, int depth) {
+    into = Json::array();
+    const bool dropped = keep == Keep::short_lists && depth > 0;
+    return entries(']', [&] { return dropped ? skip() : value(into.emplace_back(), keep, depth + 1); });
   }
 
-  bool object(Json* into, Keep keep, int depth) {
-    if (into) *into = Json::object();
+  bool object(Json& into, Keep keep, int depth) {
+    into = Json::object();
     return entries('}', [&] {
       std::string_view key;
       if (!string(key)) return false;
       // Json::emplace() would compare the key with all other ones.
-      auto* const child =
-          into ? &into->get_ref<Json::object_t&>().emplace_back(std::string(key), nullptr).second : nullptr;
+      auto& child = into.get_ref<Json::object_t&>().emplace_back(std::string(key), nullptr).second;
       skip_space();
       if (!take_if(':')) return false;
       skip_space();
@@ -124,17 +125,37 @@ class Reader {
     });
   }
 
-  /// Reads a value. Sets `into` to the kept part, unless it is null.
-  bool value(Json* into, Keep keep, int depth) {
-    constexpr int deepest = 30;
+  bool value(Json& into, Keep keep, int depth) {
     if (depth == deepest) return false;
     if (here() == '{') return object(into, keep, depth);
     if (here() == '[') return list(into, keep, depth);
     if (here() != '"') return scalar(into);
     std::string_view text;
     if (!string(text)) return false;
-    if (into) *into = text;
+    into = text;
     return true;
+  }
+
+  /// Skips a value that is not kept, up to the comma or bracket after it. Only brackets and strings are distinguished,
+  /// because the checksum detects any damage.
+  bool skip() {
+    auto seal = seal_, digest = digest_;
+    const auto begin = at_;
+    bool in_string = false;
+    for (int depth = 0; at_ < text_.size(); ++at_) {
+      const char c = text_[at_];
+      const bool opens = c == '[' || c == '{', closes = c == ']' || c == '}';
+      if (depth == 0 && !in_string && (closes || c == ',')) break;
+      if (c == '\\' || depth == deepest) return false;
+      if (c == '"') in_string = !in_string;
+      if (!in_string) depth += opens - closes;
+      seal = hashed(seal, c);
+      // A string cannot contain a line break, and a space in a string belongs to the result.
+      if (c != '\n' && (c != ' ' || in_string)) digest = hashed(digest, c);
+    }
+    seal_ = seal;
+    if (digested_) digest_ = digest;
+    return at_ > begin;
   }
 
   /// The checksum is that of the text with zeros in its place.
@@ -157,14 +178,12 @@ class Reader {
     skip_space();
     if (!take_if(':')) return false;
     skip_space();
-    const auto keep = key == "path" || key == "checksum"     ? Keep::nothing
-                      : key == "spec" || key == "provenance" ? Keep::all
-                                                             : Keep::short_lists;
+    const auto keep = key == "spec" || key == "provenance" ? Keep::all : Keep::short_lists;
     const bool without_states = key == "states" && states_ == States::drop;
     if (without_states) record["states"] = Json::array();
-    const bool good = key == "checksum"                         ? checksum()
-                      : keep == Keep::nothing || without_states ? value(nullptr, keep, 0)
-                                                                : value(&record[std::string(key)], keep, 0);
+    const bool good = key == "checksum"                 ? checksum()
+                      : key == "path" || without_states ? skip()
+                                                        : value(record[std::string(key)], keep, 0);
     skip_space();
     digested_ = false;
     return good;

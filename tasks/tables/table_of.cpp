@@ -90,7 +90,8 @@ Table table_of(const std::vector<std::string>& directories, const Warn& warn, co
                           choices.base ? *choices.base : common_base(directories, manifests));
   for (const auto& directory : directories)
     for_each_record(
-        directory, warn, [&](const RecordedReplicate& held) { aggregation.add(held.summary); }, read_abridged_record);
+        directory, warn, [&](const RecordedReplicate& held) { aggregation.add(held.summary); },
+        choices.series ? read_abridged_record : read_record_without_states);
   return told(aggregation.table(common_rule(manifests)), warn);
 }
 

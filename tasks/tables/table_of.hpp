@@ -10,10 +10,12 @@
 
 namespace isojam {
 
-/// Flags to exclude, and the base of a table. nullopt means: as in the manifests of the directories.
+/// Choices for a table. nullopt means: as in the manifests of the directories.
 struct TableChoices {
-  std::optional<std::vector<Flag>> exclude;
+  std::optional<std::vector<Flag>> exclude;  ///< flags to exclude
   std::optional<Json> base;
+  /// If false, Row::series remains empty. The table then takes about a third of the time.
+  bool series = true;
 };
 
 /// Makes the table of all records in one or several results directories. The excluded flags and the base are those in

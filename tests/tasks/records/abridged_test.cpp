@@ -2,6 +2,7 @@
 // - The quick reader of records keeps every value that tables use, with the same bits and types as a JSON parser. It
 //   omits the path and the lists inside states, except histograms of angles.
 // - It computes the result digest of the whole record.
+// - Tables of the nearest states are the same if all other states are dropped.
 // - It rejects every changed byte, every truncation, and everything that it does not read itself. Such a record is then
 //   read in the usual way.
 
@@ -11,6 +12,7 @@
 
 #include <filesystem>
 
+#include "tasks/io/file.hpp"
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/sealed.hpp"
 #include "tasks/records/record.hpp"
@@ -64,6 +66,23 @@ TEST(Abridged, KeepsWhatTablesNeed) {
   const auto brief = read_record_without_states(directory / "r", name);
   EXPECT_EQ(brief.summary.values, whole.summary.values);
   EXPECT_TRUE(brief.summary.states.empty());
+}
+
+TEST(Abridged, TablesOfNearestStatesNeedNoOtherStates) {
+  const test::TemporaryDirectory directory;
+  auto manifest = test::tiny_manifest();
+  manifest["replicates"] = 2;
+  test::write_text(directory / "m.json", manifest.dump());
+  ASSERT_EQ(test::isojam({"run", "m.json", "-o", "r"}, directory.path()).exit_code, 0);
+  for (const std::string format : {"text", "csv", "csv-long", "latex"}) {
+    const auto brief = test::isojam({"aggregate", "r", "--format", format}, directory.path());
+    const auto whole = test::isojam({"aggregate", "r", "--format", format, "-o", "t.json"}, directory.path());
+    EXPECT_EQ(brief.exit_code, 0);
+    EXPECT_EQ(brief.out, whole.out) << format;
+  }
+  const auto json = test::isojam({"aggregate", "r", "--format", "json"}, directory.path()).out;
+  EXPECT_FALSE(Json::parse(json).at("rows").at(0).at("series").empty());
+  EXPECT_EQ(json, read_file((directory / "t.json").string()));
 }
 
 TEST(Abridged, ReadsNumbersLikeAParser) {
