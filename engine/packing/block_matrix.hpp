@@ -34,6 +34,8 @@ struct BlockMatrix {
   /// calls with the same row and column are allowed.
   void add_pair(int row, int column, const Matrix6d& row_row, const Matrix6d& row_column,
                 const Matrix6d& column_column);
+  /// Adds a matrix with the same numbers of blocks and strains.
+  BlockMatrix& operator+=(const BlockMatrix& term);
 };
 
 /// Product of the matrix with a vector of matrix.rows() entries.

@@ -1,13 +1,10 @@
 #include "engine/packing/energy.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "engine/geometry/overlap/small_distances.hpp"
 #include "engine/packing/strain_border.hpp"
-#include "engine/parallel/parallel.hpp"
 
 namespace isojam {
 
@@ -21,46 +18,24 @@ struct Accumulator {
   double energy_noise = 0;        ///< Σ ρ_c V²/2
 };
 
-/// The relative error ρ_c, see Evaluation::residual_floor.
-double relative_error(const ConvexSolid& a, const ConvexSolid& b, const Eigen::Vector3d& r, const Overlap& overlap) {
-  const double tolerance = gap_tolerance(a, b, r), area = overlap.area.norm();
-  return tolerance / std::max(double_double_below(a, b), overlap.volume / area) + tolerance / std::sqrt(area);
-}
-
-/// Contributions of one contact, lab frame: ∂E/∂x_A = (V/2) S_A, ∂E/∂θ_A = (V/2) M_A.
-ContactTerms terms_of(const Packing& packing, const NeighbourPair& pair, const Overlap& overlap) {
-  ContactTerms terms;
-  const Eigen::Vector3d r = displacement(packing, pair);
-  const ConvexSolid &a = packing.solids[pair.a], &b = packing.solids[pair.b];
-  const double radius_a = a.gyration_radius(), radius_b = b.gyration_radius();
-  const Eigen::Vector3d dtheta = overlap.volume / 2 * overlap.moment;
-  terms.dx = overlap.volume / 2 * overlap.area;
-  terms.dtheta_a = dtheta / radius_a;
-  terms.dtheta_b = (r.cross(terms.dx) - dtheta) / radius_b;
-  terms.stress = terms.dx * r.transpose();
-  terms.energy = overlap.volume * overlap.volume / 4;
-  terms.force = terms.dx.norm();
-  const double square = overlap.area.squaredNorm();
-  const Eigen::Vector3d moment_b = r.cross(overlap.area) - overlap.moment;
-  terms.stiffness_a = (square + overlap.moment.squaredNorm() / (radius_a * radius_a)) / 2;
-  terms.stiffness_b = (square + moment_b.squaredNorm() / (radius_b * radius_b)) / 2;
-  terms.error = relative_error(a, b, r, overlap);
-  return terms;
-}
-
-void add_contact(const NeighbourPair& pair, const ContactTerms& terms, Evaluation& sum, Accumulator& sums) {
+/// Adds the contributions of a pair to the energy, its derivatives and their rounding errors.
+void add_pair(const NeighbourPair& pair, const ContactTerms& terms, Evaluation& sum, Accumulator& sums) {
   sum.gradient.segment<3>(6 * pair.a) += terms.dx;
   sum.gradient.segment<3>(6 * pair.a + 3) += terms.dtheta_a;
   sum.gradient.segment<3>(6 * pair.b) -= terms.dx;
   sum.gradient.segment<3>(6 * pair.b + 3) += terms.dtheta_b;
   sum.energy += terms.energy;
   sum.stress -= terms.stress;
+  sums.noise[pair.a] += terms.error * terms.force;
+  sums.noise[pair.b] += terms.error * terms.force;
+  sums.energy_noise += 2 * terms.error * std::abs(terms.energy);
+}
+
+void add_contact(const NeighbourPair& pair, const ContactTerms& terms, Evaluation& sum, Accumulator& sums) {
+  add_pair(pair, terms, sum, sums);
   sums.force += terms.force;
   sums.stiffness[pair.a] += terms.stiffness_a;
   sums.stiffness[pair.b] += terms.stiffness_b;
-  sums.noise[pair.a] += terms.error * terms.force;
-  sums.noise[pair.b] += terms.error * terms.force;
-  sums.energy_noise += 2 * terms.error * terms.energy;
   ++sum.contacts;
 }
 
@@ -118,24 +93,10 @@ double largest_imbalance(const Eigen::VectorXd& gradient) {
 }  // namespace
 
 double deviator_of(const Evaluation& evaluation) {
-  if (!(evaluation.pressure > 0)) return 0;
+  const double scale = evaluation.repulsive_pressure.value_or(evaluation.pressure);
+  if (!(scale > 0)) return 0;
   const Eigen::Matrix3d excess = evaluation.stress + evaluation.pressure * Eigen::Matrix3d::Identity();
-  return excess.cwiseAbs().maxCoeff() / evaluation.pressure;
-}
-
-void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
-  // Hessians and contacts are usually requested for a state that has just been evaluated.
-  const bool known = evaluated_solids_ == packing.solids && evaluated_cell_ && *evaluated_cell_ == packing.cell &&
-                     evaluated_poses_ == packing.poses && evaluated_precision_ == precision;
-  if (known) return;
-  evaluated_poses_.clear();
-  list_.refresh(packing);
-  place_all(packing, precision, placed_);
-  totals_ += overlap_pairs(packing, precision, placed_, list_.pairs(), list_.axes(), touching_);
-  evaluated_poses_ = packing.poses;
-  evaluated_cell_ = packing.cell;
-  evaluated_solids_ = packing.solids;
-  evaluated_precision_ = precision;
+  return excess.cwiseAbs().maxCoeff() / scale;
 }
 
 Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) {
@@ -147,23 +108,22 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
     result.gradient = Eigen::VectorXd::Constant(6 * packing.size(), result.energy);
     return result;
   }
-  evaluated_poses_.clear();  // drop the cache, so that every call computes and counts, even for a repeated state
-  overlap_all(packing, precision);
+  overlaps_.forget();  // so that every call computes and counts, even for a repeated state
+  overlaps_.update(packing, precision, totals_);
   result.gradient = Eigen::VectorXd::Zero(6 * packing.size());
   const std::vector<double> zeros(packing.poses.size(), 0.0);
   Accumulator sums{0, zeros, zeros};
-  // The terms of the contacts are computed in parallel. They are added serially, because the order of additions
-  // determines their rounding.
-  const std::vector<NeighbourPair>& pairs = list_.pairs();
-  terms_.resize(touching_.blocks.size());
-  for_each_index(terms_.size(), [&](std::size_t block) {
-    terms_[block].clear();
-    for (const PairOverlap& at : touching_.blocks[block])
-      terms_[block].push_back(terms_of(packing, pairs[at.pair], at.overlap));
-  });
-  for (std::size_t block = 0; block < terms_.size(); ++block) {
-    for (std::size_t k = 0; k < terms_[block].size(); ++k)
-      add_contact(pairs[touching_.blocks[block][k].pair], terms_[block][k], result, sums);
+  // The terms of the pairs are computed in parallel. They are added serially, because the order of additions determines
+  // their rounding.
+  set_terms(packing, overlaps_.pairs(), overlaps_.touching(), {}, terms_);
+  for (const auto& block : terms_.blocks) {
+    for (const PairTerms::Entry& at : block) add_contact(at.pair, at.terms, result, sums);
+  }
+  if (cohesion_) {
+    result.repulsive_pressure = -result.stress.trace() / (3 * packing.cell.volume());
+    for (const auto& block : cohesion_->evaluate(packing, precision, totals_).blocks) {
+      for (const PairTerms::Entry& at : block) add_pair(at.pair, at.terms, result, sums);
+    }
   }
   result.stress /= packing.cell.volume();
   result.pressure = -result.stress.trace() / 3;
@@ -177,17 +137,17 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
 
 SecondOrder PackingEnergy::second_order(const Packing& packing, double probe_distance, Precision precision,
                                         CellFreedom cell) {
-  overlap_all(packing, precision);
-  const std::vector<NeighbourPair>& pairs = list_.pairs();
-  const std::vector<PairHessian> hessians = pair_hessians(packing, precision, placed_, pairs, touching_);
+  overlaps_.update(packing, precision, totals_);  // usually of a state that has just been evaluated
+  const std::vector<NeighbourPair>& pairs = overlaps_.pairs();
+  const std::vector<PairHessian> hessians = overlaps_.hessians(packing);
   TouchingPairs closed;
-  if (probe_distance > 0) closed = probe_pairs(packing, placed_, pairs, list_.axes(), probe_distance);
+  if (probe_distance > 0) closed = overlaps_.probe(packing, probe_distance);
   SecondOrder result;
   result.hessian.diagonal.assign(packing.poses.size(), Matrix6d::Zero());
   const StrainBasis strains = strain_basis(cell) / strain_length(packing.size());
   StrainBorder border(cell, packing.size(), result.hessian);
   std::size_t next = 0;
-  for_each_of_either(touching_, closed, [&](std::size_t k, const Overlap* now, const Overlap* then) {
+  for_each_of_either(overlaps_.touching(), closed, [&](std::size_t k, const Overlap* now, const Overlap* then) {
     const NeighbourPair& pair = pairs[k];
     const Eigen::Vector3d r = displacement(packing, pair);
     result.pairs.push_back(incipient_contact(pair.a, pair.b, now ? *now : Overlap{}, then ? *then : Overlap{}, r,
@@ -198,6 +158,7 @@ SecondOrder PackingEnergy::second_order(const Packing& packing, double probe_dis
     border.add_pair(pair.a, pair.b, h, -now->volume / 2 * now->area, r);
   });
   border.finish();
+  if (cohesion_) result.hessian += cohesion_->hessian(packing, precision, cell, totals_);
   return result;
 }
 
@@ -206,11 +167,11 @@ BlockMatrix PackingEnergy::hessian(const Packing& packing, Precision precision) 
 }
 
 std::vector<Contact> PackingEnergy::contacts(const Packing& packing, Precision precision) {
-  overlap_all(packing, precision);
+  overlaps_.update(packing, precision, totals_);
   std::vector<Contact> result;
-  for (const auto& block : touching_.blocks) {
+  for (const auto& block : overlaps_.touching().blocks) {
     for (const PairOverlap& at : block) {
-      const NeighbourPair& pair = list_.pairs()[at.pair];
+      const NeighbourPair& pair = overlaps_.pairs()[at.pair];
       const Eigen::Vector3d d = displacement(packing, pair);
       const Eigen::Quaterniond &a = packing.poses[pair.a].orientation, &b = packing.poses[pair.b].orientation;
       Contact contact{pair, d, relative_pose(a, b, d), at.overlap};

@@ -6,14 +6,16 @@
 
 #include "engine/packing/block_matrix.hpp"
 #include "engine/packing/cell/control.hpp"
+#include "engine/packing/cohesion_energy.hpp"
+#include "engine/packing/contact_terms.hpp"
 #include "engine/packing/incipient_contact.hpp"
-#include "engine/packing/neighbour_list.hpp"
-#include "engine/packing/pair_loop.hpp"
+#include "engine/packing/overlap_cache.hpp"
 
 namespace isojam {
 
-/// Energy of a packing, E = Σ_pairs V²/4 (Smith, Fisher, Alam 2011, E_αβ = Y V²/(4 V_p)), and its derivatives. Units:
-/// energies in Y·V_p, lengths in V_p^(1/3), pressure and stress in Y.
+/// Energy of a packing, E = Σ_pairs V²/4 (Smith, Fisher, Alam 2011, E_αβ = Y V²/(4 V_p)), and its derivatives. With
+/// cohesion, E = Σ_pairs V²/4 − w V_h, see Cohesion. Units: energies in Y·V_p, lengths in V_p^(1/3), pressure and stress
+/// in Y.
 struct Evaluation {
   double energy = 0;       ///< E + load_energy
   double load_energy = 0;  ///< energy of the load on the cell; 0 unless Enthalpy::of() has added it
@@ -22,7 +24,11 @@ struct Evaluation {
   Eigen::VectorXd gradient;
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();  ///< (1/V_cell) dE/dε, lab frame
   double pressure = 0;                               ///< −dE/dV_cell = −tr(stress)/3
-  double mean_force = 0;  ///< mean of the contact force |F| over all touching pairs; 0 without contacts
+  /// With cohesion, the pressure of the terms V²/4 alone. It is the scale of stresses if the total pressure is 0. nullopt
+  /// without cohesion.
+  std::optional<double> repulsive_pressure = std::nullopt;
+  /// mean of the contact force |F| over all touching pairs, without cohesion; 0 without contacts
+  double mean_force = 0;
   /// Largest value of |F_i| and |T_i|/R over all particles i, divided by mean_force. F_i is the net force and T_i the
   /// net torque on a particle. The residual is 0 if all F_i and T_i are 0. It is infinite if mean_force is 0 but an F_i
   /// or T_i is not. Enthalpy::of() also takes the stress into account.
@@ -47,8 +53,8 @@ struct Evaluation {
   long contacts = 0;  ///< number of touching pairs
 };
 
-/// Deviation from hydrostatic stress: the largest absolute value of the entries of stress + p·1, divided by p. It is 0
-/// if p is not positive.
+/// Deviation from hydrostatic stress: the largest absolute value of the entries of stress + p·1, divided by p, or with
+/// cohesion by repulsive_pressure. It is 0 if the divisor is not positive.
 double deviator_of(const Evaluation& evaluation);
 
 /// Second derivatives of the energy, and the incipient contacts. The second derivatives contain no stiffness, or too
@@ -70,22 +76,15 @@ struct Contact {
   Overlap overlap;               ///< volume V of the intersection, and the faces and edges that bound it
 };
 
-/// Contributions of one contact of particles a and b to an Evaluation.
-struct ContactTerms {
-  /// terms that are added to the gradient: (dx, dtheta_a) for a, and (−dx, dtheta_b) for b
-  Eigen::Vector3d dx, dtheta_a, dtheta_b;
-  Eigen::Matrix3d stress;        ///< −V_cell times the term that is added to the stress
-  double energy = 0, force = 0;  ///< energy V²/4, and contact force |F|
-  /// ½ |∇V|², with derivatives with respect to one particle only: a for stiffness_a, and b for stiffness_b
-  double stiffness_a = 0, stiffness_b = 0;
-  double error = 0;  ///< relative error ρ_c, see Evaluation::residual_floor
-};
-
 /// Computes energies, forces, Hessians and contacts of packings. An object contains only caches, such as a neighbour
 /// list, and counters. The result for a packing therefore does not depend on earlier evaluations. It also has the same
 /// bits for any number of threads.
 class PackingEnergy {
  public:
+  PackingEnergy() = default;
+  /// With cohesion. A cell is then legal if it is legal for the grown particles.
+  explicit PackingEnergy(const Cohesion& cohesion) : cohesion_(cohesion) {}
+
   /// Computes the energy and its first derivatives. Throws std::invalid_argument if the cell is not legal for the
   /// particles (is_legal() in cell/periodic_cell.hpp). With Precision::double_double, the volume, vector area and
   /// moment of every contact are computed from both doubles of each coordinate, which takes about 10 % more time. With
@@ -106,16 +105,9 @@ class PackingEnergy {
   const PairCounts& counts() const { return totals_; }  ///< sums over all pair loops of this object
 
  private:
-  void overlap_all(const Packing& packing, Precision precision);
-
-  NeighbourList list_;
-  PlacedSolids placed_;
-  TouchingPairs touching_;
-  std::vector<std::vector<ContactTerms>> terms_;  ///< contributions of touching_, in the same order
-  std::vector<Pose> evaluated_poses_;             ///< poses of the packing to which touching_ belongs
-  std::optional<PeriodicCell> evaluated_cell_;
-  std::optional<Composition> evaluated_solids_;
-  Precision evaluated_precision_ = Precision::working;
+  OverlapCache overlaps_;
+  PairTerms terms_;
+  std::optional<CohesionEnergy> cohesion_;
   long evaluations_ = 0;
   PairCounts totals_;
 };

@@ -63,7 +63,8 @@ Evaluation Enthalpy::of(Evaluation evaluation, const Packing& packing) const {
   evaluation.gradient.conservativeResize(particles + strains);
   evaluation.gradient.tail(strains) = gradient;
   const Vector6d stress = strain_length(packing.size()) / packing.cell.volume() * (basis_ * gradient);
-  const double scale = frees_volume(control_.cell) ? pressure() : evaluation.pressure;
+  double scale = frees_volume(control_.cell) ? pressure() : evaluation.pressure;
+  if (evaluation.repulsive_pressure) scale = std::max(scale, *evaluation.repulsive_pressure);
   evaluation.residual = std::max(evaluation.residual, imbalance(stress, scale));
   evaluation.load_energy = load_energy(packing.cell);
   evaluation.energy += evaluation.load_energy;

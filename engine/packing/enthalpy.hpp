@@ -24,8 +24,8 @@ class Enthalpy {
   /// the derivatives with respect to the free strains (see CellFreedom) to the gradient. The new residual is the larger
   /// of the residual of the forces and the residual of the stress. The residual of the stress is max |D_ij| / P. D is σ
   /// + p·1 − (V₀/V) sym(F τ), projected on the free strains, where σ is Evaluation::stress. If the volume is free, P
-  /// is the prescribed pressure p. Otherwise, D has no term p·1, and P is the pressure of the packing. If P ≤ 0 and D ≠
-  /// 0, the residual is infinite.
+  /// is the prescribed pressure p. Otherwise, D has no term p·1, and P is the pressure of the packing. With cohesion, P
+  /// is at least Evaluation::repulsive_pressure. If P ≤ 0 and D ≠ 0, the residual is infinite.
   Evaluation of(Evaluation evaluation, const Packing& packing) const;
   /// Does the same for the evaluation of an envelope (envelope/envelope.hpp): adds the energy of the load, and appends
   /// the derivatives with respect to the free strains. An envelope has no residual.

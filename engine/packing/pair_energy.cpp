@@ -4,6 +4,17 @@
 
 namespace isojam {
 
+namespace {
+
+/// Factors of the derivatives if the rotations θ are replaced by R·θ.
+Vector6d scale_of(double radius) {
+  Vector6d scale = Vector6d::Ones();
+  scale.tail<3>().setConstant(1 / radius);
+  return scale;
+}
+
+}  // namespace
+
 PairEnergy pair_energy(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r) {
   SeparatingAxis unused;
   OverlapHessian h;
@@ -14,9 +25,7 @@ PairEnergy pair_energy(const PlacedSolid& a, const PlacedSolid& b, const DoubleD
 
 PairEnergy pair_energy(const Overlap& overlap, const OverlapHessian& hessian, const Eigen::Vector3d& r, double radius_a,
                        double radius_b) {
-  Vector6d scale_a = Vector6d::Ones(), scale_b = scale_a;
-  scale_a.tail<3>().setConstant(1 / radius_a);
-  scale_b.tail<3>().setConstant(1 / radius_b);
+  const Vector6d scale_a = scale_of(radius_a), scale_b = scale_of(radius_b);
   const Vector6d ga = joined(overlap.area, overlap.moment);
   const Vector6d gb = joined(-overlap.area, r.cross(overlap.area) - overlap.moment);
   const auto set_block = [&](const Vector6d& g, const Vector6d& k, const Matrix6d& second, const Vector6d& rows,
@@ -32,6 +41,12 @@ PairEnergy pair_energy(const Overlap& overlap, const OverlapHessian& hessian, co
   set_block(ga, gb, hessian.ab, scale_a, scale_b, pair.hessian.ab);
   set_block(gb, gb, hessian.bb, scale_b, scale_b, pair.hessian.bb);
   return pair;
+}
+
+PairHessian volume_hessian(const OverlapHessian& hessian, double radius_a, double radius_b) {
+  const Vector6d a = scale_of(radius_a), b = scale_of(radius_b);
+  return {a.asDiagonal() * hessian.aa * a.asDiagonal(), a.asDiagonal() * hessian.ab * b.asDiagonal(),
+          b.asDiagonal() * hessian.bb * b.asDiagonal()};
 }
 
 }  // namespace isojam

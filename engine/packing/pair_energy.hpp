@@ -30,4 +30,7 @@ PairEnergy pair_energy(const PlacedSolid& a, const PlacedSolid& b, const DoubleD
 PairEnergy pair_energy(const Overlap& overlap, const OverlapHessian& hessian, const Eigen::Vector3d& r, double radius_a,
                        double radius_b);
 
+/// The second derivatives of V with respect to the same coordinates.
+PairHessian volume_hessian(const OverlapHessian& hessian, double radius_a, double radius_b);
+
 }  // namespace isojam

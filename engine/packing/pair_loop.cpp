@@ -120,17 +120,27 @@ void probe_pair(const Packing& packing, const PlacedSolids& placed, std::span<co
 
 std::size_t block_count(std::size_t pairs) { return (pairs + grain - 1) / grain; }
 
-/// Second derivatives of the energy, ½ (g gᵀ + V H(V)), g = ∇V; θ → R·θ in rows and columns.
-PairHessian pair_hessian(const Packing& packing, Precision precision, const PlacedSolids& placed,
-                         const NeighbourPair& pair) {
+Overlap overlap_with_hessian(const Packing& packing, Precision precision, const PlacedSolids& placed,
+                             const NeighbourPair& pair, OverlapHessian& h) {
   const PlacedSolid a = placed[pair.a], b = placed[pair.b];
-  const Eigen::Vector3d r = displacement(packing, pair);
   SeparatingAxis unused;
-  OverlapHessian h;
-  const Overlap value = precision == Precision::double_double
-                            ? overlap_with_hessian(a, b, displacement_double_double(packing, pair), unused, h)
-                            : overlap_with_hessian(a, b, r, unused, h);
-  return pair_energy(value, h, r, a.solid().gyration_radius(), b.solid().gyration_radius()).hessian;
+  return precision == Precision::double_double
+             ? isojam::overlap_with_hessian(a, b, displacement_double_double(packing, pair), unused, h)
+             : isojam::overlap_with_hessian(a, b, displacement(packing, pair), unused, h);
+}
+
+/// The results of hessian_of(pair) for every touching pair, in the order of `touching`.
+template <class HessianOf>
+std::vector<PairHessian> for_touching(std::span<const NeighbourPair> pairs, const TouchingPairs& touching,
+                                      const HessianOf& hessian_of) {
+  std::vector<std::size_t> first{0};
+  for (const auto& block : touching.blocks) first.push_back(first.back() + block.size());
+  std::vector<PairHessian> hessians(first.back());
+  for_each_index(touching.blocks.size(), [&](std::size_t block) {
+    for (std::size_t k = 0; k < touching.blocks[block].size(); ++k)
+      hessians[first[block] + k] = hessian_of(pairs[touching.blocks[block][k].pair]);
+  });
+  return hessians;
 }
 
 }  // namespace
@@ -205,14 +215,23 @@ TouchingPairs probe_pairs(const Packing& packing, const PlacedSolids& placed, st
 
 std::vector<PairHessian> pair_hessians(const Packing& packing, Precision precision, const PlacedSolids& placed,
                                        std::span<const NeighbourPair> pairs, const TouchingPairs& touching) {
-  std::vector<std::size_t> first{0};
-  for (const auto& block : touching.blocks) first.push_back(first.back() + block.size());
-  std::vector<PairHessian> hessians(first.back());
-  for_each_index(touching.blocks.size(), [&](std::size_t block) {
-    for (std::size_t k = 0; k < touching.blocks[block].size(); ++k)
-      hessians[first[block] + k] = pair_hessian(packing, precision, placed, pairs[touching.blocks[block][k].pair]);
+  return for_touching(pairs, touching, [&](const NeighbourPair& pair) {
+    OverlapHessian h;
+    const Overlap value = overlap_with_hessian(packing, precision, placed, pair, h);
+    return pair_energy(value, h, displacement(packing, pair), packing.solids[pair.a].gyration_radius(),
+                       packing.solids[pair.b].gyration_radius())
+        .hessian;
   });
-  return hessians;
+}
+
+std::vector<PairHessian> volume_hessians(const Packing& packing, Precision precision, const PlacedSolids& placed,
+                                         std::span<const NeighbourPair> pairs, const TouchingPairs& touching,
+                                         const Composition& solids) {
+  return for_touching(pairs, touching, [&](const NeighbourPair& pair) {
+    OverlapHessian h;
+    overlap_with_hessian(packing, precision, placed, pair, h);
+    return volume_hessian(h, solids[pair.a].gyration_radius(), solids[pair.b].gyration_radius());
+  });
 }
 
 }  // namespace isojam

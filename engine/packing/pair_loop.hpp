@@ -71,4 +71,10 @@ TouchingPairs probe_pairs(const Packing& packing, const PlacedSolids& placed, st
 std::vector<PairHessian> pair_hessians(const Packing& packing, Precision precision, const PlacedSolids& placed,
                                        std::span<const NeighbourPair> pairs, const TouchingPairs& touching);
 
+/// Computes the second derivatives of V for every touching pair, in the order of `touching`. The coordinates are
+/// (x, R·θ) with the radii of gyration R of the particles `solids`, whose sizes may differ from those in `packing`.
+std::vector<PairHessian> volume_hessians(const Packing& packing, Precision precision, const PlacedSolids& placed,
+                                         std::span<const NeighbourPair> pairs, const TouchingPairs& touching,
+                                         const Composition& solids);
+
 }  // namespace isojam

@@ -34,18 +34,26 @@ double mean_force_at(double pressure, double density) { return 3 * pressure / (4
 class StrainStep {
  public:
   StrainStep(JamProgress& progress, const JamOptions& options, std::stop_token stop)
-      : progress_(progress), result_(progress.result), options_(options), stop_(std::move(stop)) {}
+      : progress_(progress), result_(progress.result), options_(options), stop_(std::move(stop)) {
+    if (options.cohesion) cohesive_energy_.emplace(*options.cohesion);
+  }
 
   void run() {
     if (stop_.stop_requested()) {
       result_.status = JamStatus::interrupted;
     } else if (progress_.stage == JamStage::consolidation) {
       consolidate();
+    } else if (options_.cohesion && options_.cohesion_until == CohesionUntil::end) {
+      release_pressure();
     } else {
       expand();
     }
     result_.evaluations += energy_.evaluations();
     result_.counts += energy_.counts();
+    if (cohesive_energy_) {
+      result_.evaluations += cohesive_energy_->evaluations();
+      result_.counts += cohesive_energy_->counts();
+    }
     if (progress_.ended()) result_.phi_j = fit_jamming_point(energy_points(result_), options_.decompression.fit_window);
   }
 
@@ -57,7 +65,9 @@ class StrainStep {
   }
 
   /// Minimises `packing` and appends the step to the path.
-  const JamStep& relax(Packing& packing) {
+  const JamStep& relax(Packing& packing) { return relax(packing, energy_); }
+
+  const JamStep& relax(Packing& packing, PackingEnergy& energy) {
     MinimiseOptions options = minimiser();
     if (progress_.stage == JamStage::consolidation) {
       options.residual = std::max(options.residual, options_.compression.residual);
@@ -67,15 +77,19 @@ class StrainStep {
         options.max_evaluations = std::min(options.max_evaluations, hasty_evaluations);
       options.method = Method::lbfgs;
     }
-    return append(packing, minimise(packing, energy_, options, stop_));
+    return append(packing, minimise(packing, energy, options, stop_), energy);
   }
 
   const JamStep& append(const Packing& packing, const MinimiseSummary& summary) {
+    return append(packing, summary, energy_);
+  }
+
+  const JamStep& append(const Packing& packing, const MinimiseSummary& summary, PackingEnergy& energy) {
     JamStep step;
     step.stage = progress_.stage;
     step.summary = summary;
     step.density = packing.density();
-    const Evaluation value = energy_.evaluate(packing, step.summary.precision);
+    const Evaluation value = energy.evaluate(packing, step.summary.precision);
     step.energy_per_particle = value.energy / packing.size();
     step.pressure = value.pressure;
     step.deviator = deviator_of(value);
@@ -119,6 +133,35 @@ class StrainStep {
     return step;
   }
 
+  /// Ends a compression with cohesion if the terms V²/4 reach the target energy after a relaxation without cohesion.
+  /// Relaxation only lowers them, so it can be skipped if they are below the target before it.
+  void end_cohesive_compression() {
+    Packing bare = progress_.packing;
+    if (energy_.evaluate(bare).energy < options_.compression.target_energy * bare.size()) return;
+    const JamStep& step = relax(bare);
+    if (must_end(step) || !consolidated(step)) return;
+    progress_.stage = JamStage::expansion;
+    if (options_.cohesion_until == CohesionUntil::decompression) progress_.packing = std::move(bare);
+  }
+
+  /// Relaxes the packing and its cell to zero pressure, with cohesion.
+  void release_pressure() {
+    MinimiseOptions options = options_.minimise;
+    options.method = Method::newton;
+    options.control = control_at_pressure(options_, 0);
+    Packing next = progress_.packing;
+    const JamStep& step = append(next, minimise(next, *cohesive_energy_, options, stop_), *cohesive_energy_);
+    if (must_end(step)) return;
+    if (!is_equilibrium(step.summary)) {
+      result_.status = JamStatus::not_jammed;
+    } else if (energy_.evaluate(next).contacts == 0) {
+      result_.status = JamStatus::detached;
+    } else {
+      keep(std::move(next));
+      result_.status = JamStatus::jammed;
+    }
+  }
+
   /// A step of compression. The first one only minimises.
   void consolidate() {
     Packing& packing = progress_.packing;
@@ -131,8 +174,10 @@ class StrainStep {
       }
       packing = strained_to(packing, packing.density() + strain);
     }
-    const JamStep& step = relax(packing);
-    if (!must_end(step) && consolidated(step)) progress_.stage = JamStage::expansion;
+    const JamStep& step = relax(packing, cohesive_energy_ ? *cohesive_energy_ : energy_);
+    if (must_end(step)) return;
+    if (cohesive_energy_) return end_cohesive_compression();
+    if (consolidated(step)) progress_.stage = JamStage::expansion;
   }
 
   const JamStep& last_state() const { return result_.path[static_cast<std::size_t>(result_.state_steps.back())]; }
@@ -305,6 +350,7 @@ class StrainStep {
   JamResult& result_;
   const JamOptions& options_;
   std::stop_token stop_;
+  std::optional<PackingEnergy> cohesive_energy_;
   PackingEnergy energy_;  // for this step only: its counts must not depend on caches of an earlier step
 };
 

@@ -42,6 +42,17 @@ template <>
 inline constexpr std::array enum_names<CellShape>{EnumName{CellShape::isotropic, "isotropic"},
                                                   EnumName{CellShape::free, "free"}};
 
+/// Stage until which cohesion acts.
+enum class CohesionUntil {
+  /// Cohesion acts during compression. Decompression is that of particles without cohesion.
+  decompression,
+  /// Cohesion always acts. Instead of a decompression, the packing relaxes to zero pressure.
+  end
+};
+template <>
+inline constexpr std::array enum_names<CohesionUntil>{EnumName{CohesionUntil::decompression, "decompression"},
+                                                      EnumName{CohesionUntil::end, "end"}};
+
 /// Options of compression, the first stage of the protocol. Compression consists of isotropic strain steps, each
 /// followed by a minimisation, until the target energy is reached. Energies are in units of Y·V_p.
 struct Compression {
@@ -97,8 +108,14 @@ struct Decompression {
 /// Options of the protocol of Smith, Fisher, Alam 2011 (arXiv:1104.4933): compression, then decompression towards φ_J.
 /// The keys of manifests and records call these stages consolidation and expansion.
 struct JamOptions {
-  Compression compression;                ///< options of the first stage
-  Decompression decompression;            ///< options of the second stage
+  Compression compression;      ///< options of the first stage
+  Decompression decompression;  ///< options of the second stage
+  /// Cohesion; nullopt: none. Requires Compression::target_before_relaxation = false. With cohesion, compression ends
+  /// when the terms V²/4 alone reach the target energy after a relaxation without cohesion. With CohesionUntil::end,
+  /// the result has one state: the equilibrium at zero pressure, whose density takes the place of φ_J. The volume of
+  /// the cell relaxes, and with CellShape::free also its shape. Newton's method finds the state.
+  std::optional<Cohesion> cohesion = std::nullopt;
+  CohesionUntil cohesion_until = CohesionUntil::decompression;
   int max_steps = 400;                    ///< largest number of entries of `path`, both stages together
   CellShape cell = CellShape::isotropic;  ///< relaxation of the shape of the cell
   /// Options of the minimisations. In compression, the method is always L-BFGS, and Compression::evaluations replaces
@@ -157,6 +174,7 @@ enum class JamStatus {
   goal_not_reached,  ///< φ_J was fitted, but decompression ended before final_distance
   not_jammed,        ///< the last solution branch has fewer than two states
   density_limit,     ///< compression reached max_density before the target energy
+  detached,          ///< at zero pressure, cohesion does not hold the particles together: no particles touch
   step_limit,        ///< max_steps was reached
   cell_limit,        ///< the cell became so small or skew that a particle could touch two images of another particle
   not_finite,
@@ -168,6 +186,7 @@ inline constexpr std::array enum_names<JamStatus>{EnumName{JamStatus::not_called
                                                   EnumName{JamStatus::goal_not_reached, "goal_not_reached"},
                                                   EnumName{JamStatus::not_jammed, "not_jammed"},
                                                   EnumName{JamStatus::density_limit, "density_limit"},
+                                                  EnumName{JamStatus::detached, "detached"},
                                                   EnumName{JamStatus::step_limit, "step_limit"},
                                                   EnumName{JamStatus::cell_limit, "cell_limit"},
                                                   EnumName{JamStatus::not_finite, "not_finite"},

@@ -1,6 +1,8 @@
 #include "tests/oracle/quad_packing.hpp"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/packing/cell/strain.hpp"
@@ -21,12 +23,10 @@ Quad3 quad_displacement(const Packing& packing, const NeighbourPair& pair) {
 
 Quad determinant(const QuadMatrix& m) { return dot(m[0], cross(m[1], m[2])); }
 
-}  // namespace
-
-QuadEvaluation evaluate_in_quad(const Packing& packing) {
-  QuadEvaluation sum;
-  sum.force.resize(packing.poses.size());
-  sum.torque.resize(packing.poses.size());
+/// Adds the forces and energies of all pairs, with the energy quadratic V² + linear V of a pair. Returns the sum of |F|
+/// and the number of pairs.
+std::pair<Quad, long> add_pairs(const Packing& packing, Quad quadratic, Quad linear, QuadEvaluation& sum) {
+  std::pair<Quad, long> forces{0, 0};
   for (const NeighbourPair& pair :
        find_neighbours_brute_force(packing, 2.001 * packing.solids.greatest_circumradius())) {
     const Pose &a = packing.poses[pair.a], &b = packing.poses[pair.b];
@@ -34,17 +34,32 @@ QuadEvaluation evaluate_in_quad(const Packing& packing) {
     const QuadOverlap overlap = clipped_overlap(packing.solids[pair.a], packing.solids[pair.b], relative_pose(a, b, r));
     if (!(overlap.volume > 0)) continue;
     const QuadMatrix q = quad_rotation(a);
-    const Quad3 force = -overlap.volume / 2 * (q * overlap.area);
-    const Quad3 torque = -overlap.volume / 2 * (q * overlap.moment);
-    sum.energy += overlap.volume * overlap.volume / 4;
+    const Quad slope = 2 * quadratic * overlap.volume + linear;
+    const Quad3 force = -slope * (q * overlap.area);
+    const Quad3 torque = -slope * (q * overlap.moment);
+    sum.energy += (quadratic * overlap.volume + linear) * overlap.volume;
     sum.force[pair.a] = sum.force[pair.a] + force;
     sum.force[pair.b] = sum.force[pair.b] - force;
     sum.torque[pair.a] = sum.torque[pair.a] + torque;
     // Torque of the same force about the centre of B.
     sum.torque[pair.b] = sum.torque[pair.b] - torque + cross(r, force);
     for (int c = 0; c < 3; ++c) sum.virial[c] = sum.virial[c] + force[c] * r;
-    sum.mean_force += norm(force);
-    ++sum.contacts;
+    forces.first += norm(force);
+    ++forces.second;
+  }
+  return forces;
+}
+
+}  // namespace
+
+QuadEvaluation evaluate_in_quad(const Packing& packing, const std::optional<Cohesion>& cohesion) {
+  QuadEvaluation sum;
+  sum.force.resize(packing.poses.size());
+  sum.torque.resize(packing.poses.size());
+  std::tie(sum.mean_force, sum.contacts) = add_pairs(packing, Quad(1) / 4, 0, sum);
+  if (cohesion) {
+    const Composition solids = grown(packing.solids, packing.size(), cohesion->range / 2);
+    add_pairs({solids, packing.cell, packing.poses}, 0, -Quad(cohesion->strength), sum);
   }
   if (sum.contacts == 0) return sum;
   sum.mean_force /= sum.contacts;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/packing/cell/control.hpp"
+#include "engine/packing/cohesion.hpp"
 #include "engine/packing/packing.hpp"
 
 namespace isojam::oracle {
@@ -21,8 +23,9 @@ struct QuadEvaluation {
   long contacts = 0;
 };
 
-/// Evaluates a packing by clipped_overlap() for all pairs of particles, which is slow.
-QuadEvaluation evaluate_in_quad(const Packing& packing);
+/// Evaluates a packing by clipped_overlap() for all pairs of particles, which is slow. With cohesion, mean_force and
+/// contacts are still those of the pairs that touch.
+QuadEvaluation evaluate_in_quad(const Packing& packing, const std::optional<Cohesion>& cohesion = std::nullopt);
 
 /// The gradient ∂E/∂(x, R·θ) with 6N entries, in the order of Evaluation::gradient.
 std::vector<Quad> gradient_of(const QuadEvaluation& evaluation, const Packing& packing);

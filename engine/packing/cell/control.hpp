@@ -31,7 +31,9 @@ inline bool frees_volume(CellFreedom cell) { return cell == CellFreedom::isotrop
 ///   free           E + p (V − V₀) − V₀ τ:(F − 1)
 struct CellControl {
   CellFreedom cell = CellFreedom::fixed;  ///< the free strains
-  double pressure = 0;  ///< prescribed pressure p > 0, in units of Y; used only for `isotropic` and `free`
+  /// Prescribed pressure p, in units of Y; used only for `isotropic` and `free`. It is positive, or 0 if there is
+  /// cohesion.
+  double pressure = 0;
   /// Deviatoric part τ of the prescribed stress −p·1 + τ, symmetric and traceless, in units of Y; used only for `free`.
   Eigen::Matrix3d deviator = Eigen::Matrix3d::Zero();
 };

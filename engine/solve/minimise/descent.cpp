@@ -65,8 +65,8 @@ void Descent::count_factorisations(long factorisations, long updates) {
 std::optional<StopReason> Descent::verdict() {
   if (!std::isfinite(here_.energy) || !here_.gradient.allFinite()) return StopReason::not_finite;
   if (cell_limit_) return StopReason::cell_limit;
-  // Under pressure a packing is always jammed.
-  const bool loaded = frees_volume(options_.control.cell);
+  // Under pressure a packing is always jammed. Cohesion makes the energy negative.
+  const bool loaded = frees_volume(options_.control.cell) || here_.repulsive_pressure;
   if (here_.contacts == 0 && !loaded) return StopReason::unjammed;
   raise_precision();
   if (here_.residual <= options_.residual) return StopReason::residual_reached;

@@ -147,7 +147,7 @@ class Newton {
   bool follow_up(Packing& there, Evaluation& value, double predicted, double length) {
     ActivePairs active = active_;
     for (int k = 0; k < follow_ups; ++k) {
-      if (!(value.energy < hopeless * descent_.here().energy) || descent_.verdict()) return false;
+      if (!(value.energy < hopeless * std::abs(descent_.here().energy)) || descent_.verdict()) return false;
       const auto step = model_at(there, value).minimise(shift_.value(), factor_, active);
       if (!step || largest_displacement(step->displacement) > 2 * length) return false;
       Packing next = there;
