@@ -254,7 +254,7 @@ std::vector<FaceLoop> hull_faces(std::span<const Quad3> vertices) {
   refuse_equal_points(points, tolerance);
   std::vector<int> use(vertices.size());
   std::iota(use.begin(), use.end(), 0);
-  const std::vector<FaceLoop> faces = joined_faces(points, hull_triangles(points, use), tolerance);
+  std::vector<FaceLoop> faces = joined_faces(points, hull_triangles(points, use), tolerance);
   refuse_other_points(points, use, faces, tolerance);
   return faces;
 }

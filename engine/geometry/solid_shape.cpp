@@ -100,15 +100,17 @@ double group_distance(const ConvexSolid& solid) {
 
 double suggested_merge(const ConvexSolid& solid) {
   if (solid.given().empty() || !has_suspect_edges(solid)) return 0;
-  // Faces are joined in pairs, and the plane of a part of them may be farther from its corners.
-  for (double merge = rounded_up(std::max(2 * group_distance(solid), 1e-15)); merge <= largest_merge; merge *= 2) {
+  const auto mends = [&](double merge) {
     try {
-      if (!has_suspect_edges(ConvexSolid("", repaired(solid.given(), {.merge = merge}).vertices))) return merge;
+      return !has_suspect_edges(ConvexSolid("", repaired(solid.given(), {.merge = merge}).vertices));
     } catch (const NoSolid&) {
-      continue;  // a larger value joins more
+      return false;  // a larger value joins more faces
     }
-  }
-  return 0;
+  };
+  // Faces are joined in pairs, and the plane of a part of them may be farther from its corners.
+  double merge = rounded_up(std::max(2 * group_distance(solid), 1e-15));
+  while (merge <= largest_merge && !mends(merge)) merge *= 2;
+  return merge <= largest_merge ? merge : 0;
 }
 
 }  // namespace

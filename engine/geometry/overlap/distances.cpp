@@ -110,7 +110,7 @@ constexpr bool fits_one_word(const Counts<v, p, e>&) {
 
 constexpr auto every_face = [] {
   std::array<std::uint8_t, LargeSolids::capacity> numbers{};
-  for (std::uint8_t k = 0; k < numbers.size(); ++k) numbers[k] = k;
+  for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = static_cast<std::uint8_t>(k);
   return numbers;
 }();
 
