@@ -4,11 +4,16 @@
 
 namespace isojam {
 
-void CohesionEnergy::update(const Packing& packing, Precision precision, PairCounts& counts) {
+const Composition& CohesionEnergy::grown_solids(const Packing& packing) {
   if (!grown_ || grown_from_ != packing.solids) {
     grown_ = Packing{grown(packing.solids, packing.size(), cohesion_.range / 2), packing.cell, {}};
     grown_from_ = packing.solids;
   }
+  return grown_->solids;
+}
+
+void CohesionEnergy::update(const Packing& packing, Precision precision, PairCounts& counts) {
+  grown_solids(packing);
   grown_->cell = packing.cell;
   grown_->poses = packing.poses;
   overlaps_.update(*grown_, precision, counts);

@@ -17,6 +17,8 @@ class CohesionEnergy {
  public:
   explicit CohesionEnergy(const Cohesion& cohesion) : cohesion_(cohesion) {}
 
+  /// The solids of the particles with all faces moved outwards by h/2.
+  const Composition& grown_solids(const Packing& packing);
   /// Computes the contributions of all pairs with V_h > 0. The numbers of pairs are added to `counts`. Throws
   /// std::invalid_argument if a solid cannot grow, see can_grow(), or if the cell is not legal for the grown solids
   /// (is_legal() in cell/periodic_cell.hpp).

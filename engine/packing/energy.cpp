@@ -99,6 +99,10 @@ double deviator_of(const Evaluation& evaluation) {
   return excess.cwiseAbs().maxCoeff() / scale;
 }
 
+bool PackingEnergy::accepts(const Packing& packing) {
+  return is_legal(packing.cell, cohesion_ ? cohesion_->grown_solids(packing).widest() : packing.solids.widest());
+}
+
 Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) {
   ++evaluations_;
   Evaluation result;
@@ -120,7 +124,7 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
     for (const PairTerms::Entry& at : block) add_contact(at.pair, at.terms, result, sums);
   }
   if (cohesion_) {
-    result.repulsive_pressure = -result.stress.trace() / (3 * packing.cell.volume());
+    result.repulsive_pressure = -(result.stress / packing.cell.volume()).trace() / 3;
     for (const auto& block : cohesion_->evaluate(packing, precision, totals_).blocks) {
       for (const PairTerms::Entry& at : block) add_pair(at.pair, at.terms, result, sums);
     }

@@ -82,9 +82,12 @@ struct Contact {
 class PackingEnergy {
  public:
   PackingEnergy() = default;
-  /// With cohesion. A cell is then legal if it is legal for the grown particles.
+  /// With cohesion.
   explicit PackingEnergy(const Cohesion& cohesion) : cohesion_(cohesion) {}
 
+  /// True if the cell of the packing is legal for the particles, see is_legal() in cell/periodic_cell.hpp. With cohesion,
+  /// it must be legal for the grown particles.
+  bool accepts(const Packing& packing);
   /// Computes the energy and its first derivatives. Throws std::invalid_argument if the cell is not legal for the
   /// particles (is_legal() in cell/periodic_cell.hpp). With Precision::double_double, the volume, vector area and
   /// moment of every contact are computed from both doubles of each coordinate, which takes about 10 % more time. With

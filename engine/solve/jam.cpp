@@ -174,6 +174,10 @@ class StrainStep {
       }
       packing = strained_to(packing, packing.density() + strain);
     }
+    if (cohesive_energy_ && !cohesive_energy_->accepts(packing)) {
+      result_.status = JamStatus::cell_limit;
+      return;
+    }
     const JamStep& step = relax(packing, cohesive_energy_ ? *cohesive_energy_ : energy_);
     if (must_end(step)) return;
     if (cohesive_energy_) return end_cohesive_compression();
@@ -246,10 +250,11 @@ class StrainStep {
   }
 
   /// True if the last state of compression was not in equilibrium, and lost most of its energy in the minimisation.
+  /// After a compression with cohesion, such a state is so far from equilibrium that the minimisation need not end.
   bool relaxed_below_target(const JamStep& step) const {
     return !options_.compression.target_before_relaxation &&
            step.energy_per_particle < options_.compression.target_energy / 2 &&
-           (is_state(step.summary) || step.summary.reason == StopReason::unjammed);
+           (is_state(step.summary) || step.summary.reason == StopReason::unjammed || options_.cohesion);
   }
 
   void forget_states() {
@@ -355,23 +360,6 @@ class StrainStep {
 };
 
 }  // namespace
-
-CellControl control_at_density(const JamOptions& options) {
-  return {options.cell == CellShape::free ? CellFreedom::shape : CellFreedom::fixed, 0};
-}
-
-CellControl control_at_pressure(const JamOptions& options, double pressure) {
-  return {options.cell == CellShape::free ? CellFreedom::free : CellFreedom::isotropic, pressure};
-}
-
-std::vector<EnergyPoint> energy_points(const JamResult& result) {
-  std::vector<EnergyPoint> points;
-  for (const int k : result.state_steps) {
-    const JamStep& step = result.path[static_cast<std::size_t>(k)];
-    points.push_back({step.density, step.energy_per_particle, step.pressure / (step.density * step.density)});
-  }
-  return points;
-}
 
 JamProgress begin_jam(Packing start, const JamOptions& options) {
   return {std::move(start), JamStage::consolidation, options.decompression.step_fraction, 0, -1, {}};

@@ -154,7 +154,7 @@ CellControl control_at_pressure(const JamOptions& options, double pressure);
 struct JamStep {
   JamStage stage = JamStage::consolidation;  ///< stage of the protocol
   double density = 0;                        ///< density φ of the state
-  double energy_per_particle = 0;            ///< energy per particle E/N
+  double energy_per_particle = 0;            ///< energy per particle E/N, with cohesion if it acts in this step
   double pressure = 0;                       ///< pressure p
   double deviator = 0;                       ///< deviation from hydrostatic stress, see deviator_of()
   MinimiseSummary summary;                   ///< result of the minimisation of the state
@@ -176,7 +176,9 @@ enum class JamStatus {
   density_limit,     ///< compression reached max_density before the target energy
   detached,          ///< at zero pressure, cohesion does not hold the particles together: no particles touch
   step_limit,        ///< max_steps was reached
-  cell_limit,        ///< the cell became so small or skew that a particle could touch two images of another particle
+  /// the cell became so small or skew that a particle could touch two images of another particle; with cohesion, this
+  /// concerns the grown particles
+  cell_limit,
   not_finite,
   interrupted
 };

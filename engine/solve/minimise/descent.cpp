@@ -81,7 +81,7 @@ std::optional<StopReason> Descent::verdict() {
 
 Evaluation Descent::probe(const Packing& from, const Eigen::VectorXd& step, Packing& there) {
   there = moved(from, step);
-  if (options_.control.cell != CellFreedom::fixed && !is_legal(there.cell, there.solids.widest())) {
+  if (options_.control.cell != CellFreedom::fixed && !energy_.accepts(there)) {
     cell_limit_ = true;
     there = from;
     Evaluation nowhere = here_;
