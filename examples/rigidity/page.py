@@ -80,10 +80,10 @@ CLAIMS = {
     "tilting, not because contacts resist compression.": lambda data: all(
         data.at(s, 100, "held_by_second_each", TILTS_AT)["mean"] > 3 > 0.5 > data.at(
             s, 100, "prestress_10_each", TILTS_AT)["mean"] for s in WITHOUT_TETRAHEDRA),
-    "about one per edge-face contact and two per face-face contact": lambda data: all(
+    "There is about one stiff tilt per edge-face contact, and two per face-face contact": lambda data: all(
         abs(data.at(s, 100, "stiff_tilts_ff", TILTS_AT)["mean"] - 2) < 0.3
         and abs(data.at(s, 100, "stiff_tilts_ef", TILTS_AT)["mean"] - 1) < 0.15 for s in SOLIDS),
-    "C = 12 − 6/N − 2m + 2S/N holds in every state": identity_holds,
+    "C = 12 − 6/N − 2m + 2S/N in every state": identity_holds,
     "By trough, constraints are missing in octahedra, icosahedra and dodecahedra, and redundant in tetrahedra.":
         lambda data: all(data.nearest(s, 100, "missing_trough")["mean"] > 0.03 for s in SOLIDS[1:])
         and data.nearest(SOLIDS[0], 100, "redundant_trough")["mean"] > 0.05,

@@ -11,8 +11,9 @@ namespace isojam {
 inline constexpr Range any_number{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
 inline constexpr Range count_range{0, 9007199254740992};
 
-// Conversion of counters of a computation, and of rearrangements, to and from JSON in records and checkpoints. The
-// functions that read throw InputError if the JSON does not have the form that to_json() writes.
+// These functions convert the numbers of pairs, the work of minimisations, and rearrangements to and from JSON, for
+// records and checkpoints. Each read_… function throws InputError if the JSON does not have the form that to_json()
+// writes. Exception: records of earlier versions lack the newest counters of read_work(), which are then 0.
 
 Json to_json(const PairCounts& counts);
 PairCounts read_counts(const JsonPlace& place);

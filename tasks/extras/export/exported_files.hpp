@@ -27,8 +27,8 @@ struct ExportedFile {
 ///   solid or size, the name of the solid is part of the name of its .obj file.
 /// - vtp without `collection`: the file `output`.
 /// - vtp with `collection`: one file for each frame, with names that end in _0000.vtp, _0001.vtp, …, and a .pvd file.
-///   The names begin with `output` without the extension .vtp or .pvd. The time of a frame is its Δφ; if some frame has
-///   no Δφ, it is the index of the frame.
+///   The names begin with `output` without the extension .vtp or .pvd. The time of a frame is its Δφ. If any frame has
+///   no Δφ, the time of every frame is its index.
 ///
 /// For vtp, frames with a contact network have a second set of files, whose names end in -contacts before the
 /// extension. Throws UsageError if `output` for xyz has the extension .obj.
