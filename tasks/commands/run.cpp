@@ -172,15 +172,14 @@ ExitCode run(const RunArguments& arguments, Console& console) {
   adopt_added_measures(directory, manifest, console);
   const Plan plan(manifest);
   warn_about(manifest, arguments.manifest, console);
-  const Warn warn = [&](const std::string& message) { console.warn(message); };
   if (arguments.dry_run) {
-    check_directory(directory, manifest, warn);
+    check_directory(directory, manifest);
     return dry_run(manifest, plan, directory, arguments);
   }
 
   warn_about_kernels(console);
   const auto lock = lock_results(directory, DirectoryLock::Kind::shared);
-  const Store store(directory, manifest, warn);
+  const Store store(directory, manifest, [&](const std::string& message) { console.warn(message); });
   Campaign campaign(plan, manifest.replicates, arguments.shard, store);
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   const double memory = arguments.memory_gib > 0 ? arguments.memory_gib * gibibyte : available_memory();
