@@ -14,6 +14,8 @@
 #include "tasks/io/memory.hpp"
 #include "tasks/io/standard_streams.hpp"
 #include "tasks/io/texts.hpp"
+#include "tasks/records/failure_text.hpp"
+#include "tasks/records/record.hpp"
 #include "tasks/run/campaign.hpp"
 #include "tasks/run/graph.hpp"
 #include "tasks/tables/table_of.hpp"
@@ -30,7 +32,7 @@ void report_outcome(const Outcome& outcome, Console& console) {
   const auto name = replicate_name(outcome.spec);
   console.finished(work_of(outcome.spec), outcome.failure.has_value());
   if (outcome.failure) {
-    console.warn(fmt::format("{} failed in {}: {}", name, outcome.failure->where, outcome.failure->why));
+    console.warn(fmt::format("{} failed: {}", name, failure_text(make_record(outcome))));
   } else {
     console.detail(fmt::format("{}: phi_j {:.6f}, {} evaluations, {}", name, outcome.jam.phi_j->density,
                                outcome.jam.evaluations, duration_text(outcome.timing.wall_seconds)));
