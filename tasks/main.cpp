@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <string_view>
 #include <system_error>
 
 #include "tasks/commands/command.hpp"
@@ -55,6 +56,16 @@ ExitCode parse_and_run(int argc, char** argv) {
 }
 
 constexpr auto out_of_memory = "out of memory";
+constexpr auto no_thread = "cannot create another thread; use fewer threads (-j N), or raise the limit of processes";
+
+/// Text about a resource failure.
+const char* text_of(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error)) return out_of_memory;
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  const bool thread = system ? system->code() == std::errc::resource_unavailable_try_again
+                             : std::string_view(error.what()).starts_with("pthread_");  // the text of oneTBB
+  return thread ? no_thread : error.what();
+}
 
 /// Ends the program after a resource failure. Can also be called from code that must not throw.
 [[noreturn]] void end_after_resource_failure(const char* what) {
@@ -65,10 +76,10 @@ constexpr auto out_of_memory = "out of memory";
 [[noreturn]] void terminated() {
   try {
     if (const auto error = std::current_exception()) std::rethrow_exception(error);
-  } catch (const std::bad_alloc&) {
-    end_after_resource_failure(out_of_memory);
+  } catch (const std::bad_alloc& error) {
+    end_after_resource_failure(text_of(error));
   } catch (const std::system_error& error) {
-    end_after_resource_failure(error.what());
+    end_after_resource_failure(text_of(error));
   } catch (...) {
     std::fputs("isojam: error: unhandled exception of unknown type\n", stderr);
   }
@@ -81,16 +92,11 @@ int exit_code_of(int argc, char** argv) {
     const auto code = parse_and_run(argc, argv);
     flush_output();
     return static_cast<int>(code);
-  } catch (const std::bad_alloc&) {
-    end_after_resource_failure(out_of_memory);
-  } catch (const std::system_error& error) {
-    const bool thread = error.code() == std::errc::resource_unavailable_try_again;
-    end_after_resource_failure(thread ? "cannot create another thread" : error.what());
   } catch (const FileError& error) {
     std::fprintf(stderr, "isojam: error: %s\n", printable(error.what()).c_str());
     return static_cast<int>(ExitCode::some_failed);
   } catch (const std::exception& error) {
-    if (is_resource_failure(error)) end_after_resource_failure(error.what());
+    if (is_resource_failure(error)) end_after_resource_failure(text_of(error));
     std::fprintf(stderr, "isojam: error: %s\n", printable(error.what()).c_str());
     return static_cast<int>(ExitCode::some_failed);
   }
@@ -110,6 +116,6 @@ int main(int argc, char** argv) {
   try {
     return isojam::with_enough_stack([&] { return isojam::exit_code_of(argc, argv); });
   } catch (const std::system_error& error) {
-    isojam::end_after_resource_failure(error.what());
+    isojam::end_after_resource_failure(isojam::text_of(error));
   }
 }

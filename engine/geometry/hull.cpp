@@ -236,15 +236,15 @@ void refuse_other_points(const HullPoints& points, std::span<const int> use, std
 void refuse_large(std::size_t vertices, std::span<const FaceLoop> faces) {
   constexpr auto cause = NoSolid::Cause::too_large;
   if (vertices > ConvexSolid::max_vertices)
-    throw NoSolid("a solid may have at most " + std::to_string(ConvexSolid::max_vertices) + " vertices instead of " +
-                      std::to_string(vertices),
+    throw NoSolid("the solid has " + std::to_string(vertices) + " vertices, but at most " +
+                      std::to_string(ConvexSolid::max_vertices) + " are allowed",
                   cause);
   std::size_t sides = 0;
   for (const FaceLoop& face : faces) sides += face.size();
   if (sides > 2 * std::size_t{ConvexSolid::max_edges})
-    throw NoSolid("a solid may have at most " + std::to_string(ConvexSolid::max_edges) + " edges and " +
-                      std::to_string(ConvexSolid::max_faces) + " faces instead of " + std::to_string(sides / 2) +
-                      " and " + std::to_string(faces.size()),
+    throw NoSolid("the solid has " + std::to_string(sides / 2) + " edges and " + std::to_string(faces.size()) +
+                      " faces, but at most " + std::to_string(ConvexSolid::max_edges) + " edges and " +
+                      std::to_string(ConvexSolid::max_faces) + " faces are allowed",
                   cause);
 }
 

@@ -61,7 +61,8 @@ Quad3 mean_of(std::span<const Quad3> points) {
 }
 
 HullPoints::HullPoints(std::span<const Quad3> points) : exact_(points.begin(), points.end()) {
-  if (points.size() < 4) throw NoSolid("a solid needs at least 4 vertices instead of " + std::to_string(points.size()));
+  if (points.size() < 4)
+    throw NoSolid("the solid has " + std::to_string(points.size()) + " vertices, but needs at least 4");
   centre_ = mean_of(points);
   // The centre is rounded to double, so that differences from it are exact for points that are doubles.
   for (Quad& c : centre_) c = static_cast<double>(c);

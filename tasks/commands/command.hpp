@@ -55,8 +55,6 @@ class Options {
         name, {all_names<Enum>.begin(), all_names<Enum>.end()},
         [&value](const std::string& choice) { value = *from_string<Enum>(choice); }, description, need);
   }
-  /// Forbids using both options together.
-  void exclusive(const std::string& one, const std::string& other);
 
   void results_directory(std::string& directory);
   void threads(int& threads);

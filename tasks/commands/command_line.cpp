@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -100,18 +101,6 @@ std::string unexpected_argument(const CLI::App& app) {
   return remaining.empty() ? "" : fmt::format("unexpected argument \"{}\"{}", remaining.front(), see_help(given));
 }
 
-/// Returns an error text if the command, or a required argument of it, is missing. Otherwise returns an empty text.
-std::string missing_argument(const CLI::App& app) {
-  const auto given = app.get_subcommands();
-  if (given.empty()) return "a command is required" + see_help(given);
-  for (const auto* option : given.front()->get_options()) {
-    if (!option->get_required() || option->count() > 0) continue;
-    return fmt::format("{} is required{}", option->get_positional() ? option->get_type_name() : option->get_name(),
-                       see_help(given));
-  }
-  return "";
-}
-
 std::vector<std::string> choices_of(const std::string& type) {
   std::vector<std::string> choices;
   constexpr std::string_view between = ", ";
@@ -121,6 +110,36 @@ std::vector<std::string> choices_of(const std::string& type) {
     comma = type.find(between, at);
   }
   return choices;
+}
+
+/// Ending of an error message that lists the choices; empty if the type is not a list of choices.
+std::string expected_choice(const std::string& type) {
+  const auto choices = choices_of(type);
+  if (choices.empty()) return "";
+  return "; expected " + one_of(std::vector<std::string_view>(choices.begin(), choices.end()));
+}
+
+/// Ending of an error message that describes the values of a type.
+std::string expected_value(const std::string& type) {
+  if (auto choice = expected_choice(type); !choice.empty()) return choice;
+  const std::map<std::string_view, std::string_view> texts{
+      {"N", "an integer"}, {"FILE", "a path"}, {"DIR", "a path"}, {"GIB", "a positive number"}};
+  const auto found = texts.find(type);
+  return fmt::format("; expected {}", found == texts.end() ? type : found->second);
+}
+
+/// Returns an error text if the command, or a required argument of it, is missing. Otherwise returns an empty text.
+std::string missing_argument(const CLI::App& app) {
+  const auto given = app.get_subcommands();
+  if (given.empty()) return "a command is required" + see_help(given);
+  for (const auto* option : given.front()->get_options()) {
+    if (!option->get_required() || option->count() > 0) continue;
+    const auto type = option->get_type_name();
+    const auto choice = expected_choice(type);
+    const auto name = option->get_positional() && choice.empty() ? type : option->get_name();
+    return fmt::format("{} is required{}", name, choice.empty() ? see_help(given) : choice);
+  }
+  return "";
 }
 
 std::vector<OptionDescription> describe_options(const CLI::App& app) {
@@ -159,8 +178,8 @@ ProgramDescription describe_program(const CLI::App& app) {
   return program;
 }
 
-/// Returns an error text for an option without its value, or an empty text for any other error.
-std::string missing_value(const CLI::App& app, const CLI::ParseError& error) {
+/// Returns an error text for an option without its value, or with several. Returns an empty text for any other error.
+std::string wrong_count(const CLI::App& app, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr) return "";
   const std::string text = error.what();
   const auto name = text.substr(0, text.find(':'));
@@ -170,9 +189,8 @@ std::string missing_value(const CLI::App& app, const CLI::ParseError& error) {
   for (const auto* owner : owners) {
     const auto* option = owner->get_option_no_throw(name);
     if (option == nullptr || option->get_items_expected_max() == 0) continue;
-    const auto choices = choices_of(option->get_type_name());
-    const std::vector<std::string_view> names(choices.begin(), choices.end());
-    return fmt::format("{} needs a value; expected {}", name, names.empty() ? option->get_type_name() : one_of(names));
+    if (option->count() > 1) return fmt::format("{} is given {} times; give it once", name, option->count());
+    return fmt::format("{} needs a value{}", name, expected_value(option->get_type_name()));
   }
   return "";
 }
@@ -183,9 +201,7 @@ std::string own_text(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return "";
   if (auto text = unexpected_argument(app); !text.empty()) return text;
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) return missing_argument(app);
-  if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr)
-    return std::string(error.what()) + ": the two cannot be combined; remove one of them";
-  return missing_value(app, error);
+  return wrong_count(app, error);
 }
 
 std::string not_accepted(const std::string& text, const std::string& allowed) {
@@ -242,10 +258,6 @@ void Options::one_of(const std::string& name, const std::vector<std::string>& ch
       })
       ->required(need == Need::required)
       ->type_name(list);
-}
-
-void Options::exclusive(const std::string& one, const std::string& other) {
-  app_.get_option(one)->excludes(app_.get_option(other));
 }
 
 void Options::results_directory(std::string& directory) {

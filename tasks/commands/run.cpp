@@ -14,6 +14,8 @@
 #include "tasks/io/memory.hpp"
 #include "tasks/io/standard_streams.hpp"
 #include "tasks/io/texts.hpp"
+#include "tasks/records/failure_text.hpp"
+#include "tasks/records/record.hpp"
 #include "tasks/run/campaign.hpp"
 #include "tasks/run/graph.hpp"
 #include "tasks/tables/table_of.hpp"
@@ -30,7 +32,7 @@ void report_outcome(const Outcome& outcome, Console& console) {
   const auto name = replicate_name(outcome.spec);
   console.finished(work_of(outcome.spec), outcome.failure.has_value());
   if (outcome.failure) {
-    console.warn(fmt::format("{} failed in {}: {}", name, outcome.failure->where, outcome.failure->why));
+    console.warn(fmt::format("{} failed: {}", name, failure_text(make_record(outcome))));
   } else {
     console.detail(fmt::format("{}: phi_j {:.6f}, {} evaluations, {}", name, outcome.jam.phi_j->density,
                                outcome.jam.evaluations, duration_text(outcome.timing.wall_seconds)));
@@ -172,15 +174,14 @@ ExitCode run(const RunArguments& arguments, Console& console) {
   adopt_added_measures(directory, manifest, console);
   const Plan plan(manifest);
   warn_about(manifest, arguments.manifest, console);
-  const Warn warn = [&](const std::string& message) { console.warn(message); };
   if (arguments.dry_run) {
-    check_directory(directory, manifest, warn);
+    check_directory(directory, manifest);
     return dry_run(manifest, plan, directory, arguments);
   }
 
   warn_about_kernels(console);
   const auto lock = lock_results(directory, DirectoryLock::Kind::shared);
-  const Store store(directory, manifest, warn);
+  const Store store(directory, manifest, [&](const std::string& message) { console.warn(message); });
   Campaign campaign(plan, manifest.replicates, arguments.shard, store);
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   const double memory = arguments.memory_gib > 0 ? arguments.memory_gib * gibibyte : available_memory();

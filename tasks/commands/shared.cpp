@@ -46,10 +46,6 @@ std::string step_text(const ReplicateSpec& spec, const JamProgress& progress) {
                      stage_text(to_string(step.stage)), step.density, step.energy_per_particle, step.summary.residual);
 }
 
-std::string_view stage_text(std::string_view stage) {
-  return stage == to_string(JamStage::consolidation) ? "compression" : "decompression";
-}
-
 std::vector<std::string> recorded_names(const std::string& directory) {
   auto names = names_in(std::filesystem::path(directory) / "records");
   if (names.empty()) throw_without_records(directory);
@@ -74,6 +70,9 @@ void throw_unknown_replicate(const std::string& directory, const std::string& na
 
 DirectoryLock lock_results(const std::string& directory, DirectoryLock::Kind kind) {
   std::error_code error;
+  const auto status = std::filesystem::status(directory, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_directory(status))
+    throw FileError(directory + ": is a file; give a directory with -o", FileError::Reason::missing);
   std::filesystem::create_directories(directory, error);
   if (error) {
     errno = error.value();

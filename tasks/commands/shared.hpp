@@ -23,10 +23,6 @@ void warn_about_kernels(Console& console);
 /// One line of text about the latest strain step of a replicate.
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress);
 
-/// Name of a stage in messages: compression or decompression. Manifests and records call these stages consolidation and
-/// expansion.
-std::string_view stage_text(std::string_view stage);
-
 /// Names of all records in a directory. Throws FileError if there are none.
 std::vector<std::string> recorded_names(const std::string& directory);
 /// Returns `name` if a record has this name. Otherwise throws the error of throw_unknown_replicate(). With this check,

@@ -12,6 +12,7 @@
 #include "tasks/io/standard_streams.hpp"
 #include "tasks/manifest/cost.hpp"
 #include "tasks/records/recorded.hpp"
+#include "tasks/records/replicate.hpp"
 #include "tasks/records/survey.hpp"
 #include "tasks/tables/stopping.hpp"
 

@@ -206,6 +206,9 @@ struct OutputWriter::Target {
     }
     struct stat status {};
     const bool there = ::stat(target.c_str(), &status) == 0;
+    if (!there) require_folder();
+    if (there && S_ISDIR(status.st_mode))
+      throw FileError(path.string() + ": is a directory; give a file", FileError::Reason::no_file);
     if (there && !S_ISREG(status.st_mode)) {
       opened.emplace(target, O_WRONLY);
       require_open();
@@ -216,6 +219,12 @@ struct OutputWriter::Target {
     temporary.emplace(target);
   }
 
+  void require_folder() const {
+    std::error_code error;
+    if (fs::status(folder_of(target), error).type() == fs::file_type::not_found)
+      throw FileError(folder_of(target).string() + ": no such directory; create it, or choose another output",
+                      FileError::Reason::missing);
+  }
   void require_open() const {
     if (!opened->valid()) throw FileError::of_errno(path, cannot_be_written);
   }

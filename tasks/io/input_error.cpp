@@ -15,10 +15,12 @@ std::string lines(const std::vector<InputError::Details>& all) {
 
 }  // namespace
 
+std::string problem_line(const InputError::Details& details) {
+  return details.file + ": " + (details.pointer.empty() ? "" : details.pointer + ": ") + details.problem;
+}
+
 std::string one_line(const InputError::Details& details) {
-  std::string text = details.file + ": ";
-  if (!details.pointer.empty()) text += details.pointer + ": ";
-  text += details.problem;
+  const auto text = problem_line(details);
   if (!details.suggestion.empty()) return text + fmt::format("; did you mean \"{}\"?", details.suggestion);
   if (!details.remedy.empty()) return text + "; " + details.remedy;
   return details.allowed.empty() ? text : text + "; expected " + details.allowed;

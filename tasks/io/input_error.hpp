@@ -33,6 +33,8 @@ class InputError : public std::runtime_error {
   std::vector<Details> all_;
 };
 
+/// The line of what() for one error, without the allowed values, the suggestion or the remedy.
+std::string problem_line(const InputError::Details& details);
 /// The line of what() for one error. If there is a suggestion, the line contains it instead of the allowed values or
 /// the remedy.
 std::string one_line(const InputError::Details& details);

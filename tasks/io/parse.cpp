@@ -32,6 +32,40 @@ bool is_comment(std::string_view text) {
   return text.starts_with("//") || text.starts_with("/*") || text.starts_with('#');
 }
 
+/// The beginning of the word at this position.
+std::string_view word_at(std::string_view text, std::size_t position) {
+  constexpr std::string_view separators = " \t\r\n,:[]{}";
+  constexpr std::size_t longest = 20;
+  const auto before = position == 0 ? std::string_view::npos : text.find_last_of(separators, position - 1);
+  const auto begin = before == std::string_view::npos ? 0 : before + 1;
+  return text.substr(begin, std::min(text.find_first_of(separators, begin) - begin, longest));
+}
+
+struct Syntax {
+  std::string problem, remedy;
+};
+
+/// Explains a syntax error at `position`. `message` is the text of nlohmann, and `closing` the bracket that closes the
+/// innermost list or object.
+Syntax explained(std::string_view text, std::size_t position, std::string_view message, char closing) {
+  const auto has = [&](std::string_view part) { return message.find(part) != std::string_view::npos; };
+  if (has("ill-formed UTF-8")) return {"the text is not valid UTF-8", "save the file in UTF-8"};
+  if (has("unexpected end of input"))
+    return {fmt::format("not valid JSON: the text ends, but a '{}' is missing", closing), "add it"};
+  if (has("expected end of input"))
+    return {"not valid JSON: the document ends before this place", "remove the text after its end"};
+  if (has("invalid literal"))
+    return {fmt::format("not valid JSON: \"{}\" is not a value", word_at(text, position)),
+            "write a number, true, false, null, or a text in double quotes"};
+  const auto bracket = text.substr(position, 1), before = text.substr(0, position);
+  const auto last = before.find_last_not_of(" \t\r\n");
+  if ((bracket == "}" || bracket == "]") && last != std::string_view::npos && before[last] == ',')
+    return {fmt::format("not valid JSON: comma before '{}'", bracket), "remove the comma"};
+  if (has("expected '}'") || has("expected ']'"))
+    return {fmt::format("not valid JSON: ',' or '{}' is missing before this place", closing), "add it"};
+  return {fmt::format("not valid JSON: {}", message), "check the commas, brackets and double quotes before this place"};
+}
+
 /// Makes the document. Unlike nlohmann's own builder, it reports duplicate keys and deep nesting, and states the
 /// position of an error. Its time is in proportion to the number of keys.
 class Builder final : public nlohmann::json_sax<Json> {
@@ -60,7 +94,8 @@ class Builder final : public nlohmann::json_sax<Json> {
   }
 
   bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& error) override {
-    const auto at = locate(text_, position == 0 ? 0 : position - 1);
+    const auto start = std::min(position == 0 ? 0 : position - 1, text_.size());
+    const auto at = locate(text_, start);
     const auto file = fmt::format("{}:{}:{}", file_, at.line, at.column);
     if (error.id == 406) {
       if (!levels_.empty() && levels_.back().array) levels_.back().step = std::to_string(levels_.back().size);
@@ -68,11 +103,11 @@ class Builder final : public nlohmann::json_sax<Json> {
     }
     const std::string_view what = error.what();
     const bool in_string = what.find("invalid string") != std::string_view::npos;
-    if (!in_string && is_comment(text_.substr(std::min(position == 0 ? 0 : position - 1, text_.size()))))
-      refuse(file, "JSON has no comments", "", "remove the comment");
+    if (!in_string && is_comment(text_.substr(start))) refuse(file, "JSON has no comments", "", "remove the comment");
     const auto detail = what.rfind(" - ");
-    refuse(file, fmt::format("not valid JSON: {}", detail == std::string_view::npos ? what : what.substr(detail + 3)),
-           "", "check the commas, brackets and double quotes before this place");
+    auto syntax = explained(text_, start, detail == std::string_view::npos ? what : what.substr(detail + 3),
+                            !levels_.empty() && levels_.back().array ? ']' : '}');
+    refuse(file, std::move(syntax.problem), "", std::move(syntax.remedy));
   }
 
  private:

@@ -95,12 +95,12 @@ std::string sealed(const Json& document) {
 void check_seal(std::string_view text, const std::string& file) {
   const auto at = digits_in(text);
   if (at == std::string_view::npos)
-    throw InputError({file, "/checksum", "the file has no checksum", "a complete file written by isojam", ""});
+    throw InputError(
+        {file, "/checksum", "the file was not written by isojam, or is incomplete: it has no checksum", "", ""});
   std::string blanked(text);
   blanked.replace(at, blank.size(), blank);
   if (hex_hash(blanked) != text.substr(at, blank.size()))
-    throw InputError({file, "/checksum", "the file is damaged: its content does not match its checksum",
-                      "an unchanged file written by isojam", ""});
+    throw InputError({file, "/checksum", "the file is damaged: its content does not match its checksum", "", ""});
 }
 
 Json parse_sealed(std::string_view text, const std::string& file) {

@@ -47,7 +47,7 @@ void check_parameter(const JsonPlace& place, const std::string& name, const Json
   std::vector<std::string_view> names;
   for (const auto& each : swept) names.push_back(each.name);
   constexpr auto problem = "the parameter is not swept";
-  if (names.empty()) place.refuse_with_remedy(problem, "remove the base, which needs a swept parameter");
+  if (names.empty()) place.refuse_with_remedy(problem, fmt::format("remove the base, or add {} to /sweep", name));
   place.refuse(problem, one_of(names), nearest_name(name, names));
 }
 

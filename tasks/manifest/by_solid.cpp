@@ -37,6 +37,19 @@ Json read_values(const JsonPlace& root, const JsonPlace& place) {
   return values;
 }
 
+/// Reports solids that are not in the sweep.
+void refuse_solids_besides(const std::vector<std::string>& swept, const JsonPlace& place, const Manifest& manifest) {
+  if (!place.value().is_object()) return;
+  for (const auto& item : place.value().items()) {
+    const auto& name = item.key();
+    const bool is_solid = Solid::named(name) || manifest.definitions.contains(name);
+    if (!is_solid || std::find(swept.begin(), swept.end(), name) != swept.end()) continue;
+    place.read(name, [&](const JsonPlace& values) {
+      values.refuse_with_remedy(fmt::format("{} is not in /sweep/solid", name), "add it there, or remove this entry");
+    });
+  }
+}
+
 /// True if the sweep has this solid and the manifest gives no value of the parameter for it.
 bool is_free(const JsonPlace& root, const Manifest& manifest, SolidKind kind, const std::string& key) {
   const bool is_swept =
@@ -85,6 +98,7 @@ void read_by_solid(const JsonPlace& root, Manifest& manifest) {
     root.at("protocol").read_if_any("by_solid", [&](const JsonPlace& place) {
       std::vector<std::string> solids;
       for (const auto& mixture : manifest.solids) solids.emplace_back(to_string(mixture));
+      refuse_solids_besides(solids, place, manifest);
       place.expect_keys(std::vector<std::string_view>(solids.begin(), solids.end()));
       for (const auto& solid : solids) {
         place.read_if_any(solid, [&](const JsonPlace& values) {

@@ -24,7 +24,8 @@ std::optional<int> variable(const char* name) {
   const char* text = std::getenv(name);
   if (!text || !*text) return std::nullopt;
   const auto value = whole_number(text);
-  if (!value) throw std::invalid_argument(fmt::format("{}={} is not an integer", name, text));
+  if (!value)
+    throw std::invalid_argument(fmt::format("{}={} is not an integer; choose the part with --shard I/N", name, text));
   return value;
 }
 

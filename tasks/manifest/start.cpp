@@ -39,9 +39,10 @@ void refuse_overlaps(const JsonPlace& place, const Packing& packing) {
       const auto a = static_cast<std::size_t>(contact.pair.a), b = static_cast<std::size_t>(contact.pair.b);
       const double least = std::min(packing.solids[a].volume(), packing.solids[b].volume());
       if (contact.overlap.volume <= deepest_overlap * least) continue;
-      place.refuse(fmt::format("particles {} and {} overlap by {:.0f} % of the volume of the smaller", a, b,
-                               100 * contact.overlap.volume / least),
-                   fmt::format("overlaps of at most {:.0f} % of the smaller", 100 * deepest_overlap));
+      place.refuse_with_remedy(
+          fmt::format("particles {} and {} overlap by {:.0f} % of the volume of the smaller", a, b,
+                      100 * contact.overlap.volume / least),
+          fmt::format("separate them until they overlap by at most {:.0f} %", 100 * deepest_overlap));
     }
   } catch (const std::invalid_argument& error) {
     place.refuse(error.what(), fmt::format("lattice translations longer than {} (two diameters)",
@@ -55,7 +56,8 @@ void load_file(const JsonPlace& place, StartFile& file, const Manifest& manifest
   try {
     load(file, bytes, manifest.solids.front(), manifest.particles.front(), manifest.start->types);
   } catch (const ContentError& error) {
-    refuse_content(place, file.path, error, allowed_file);
+    const auto remedy = error.remedy().empty() ? "write the file again, or use another file" : error.remedy();
+    refuse_content(place, file.path, ContentError(error.what(), remedy, error.line()), allowed_file);
   }
   if (!expected.empty() && file.digest != expected)
     place.refuse_with_remedy(fmt::format("{}: the file has changed since the first run", file.path),
@@ -69,8 +71,8 @@ void check_density(const JsonPlace& place, const Start& start, const Packing& pa
     const double least = least_steps * options.compression.step;
     if (density < least)
       place.refuse_with_remedy(
-          fmt::format("the initial density {:.3g} is below {}, half of the first strain step: this step would move "
-                      "particles into each other that are far apart",
+          fmt::format("the initial density {:.3g} is below {}, half of the first strain step: in this "
+                      "step, particles that are far apart would overlap",
                       density, least),
           fmt::format("set /start/density to {:.2g} or more, or use a smaller cell", std::max(0.05, least)));
     if (density < options.compression.max_density) continue;

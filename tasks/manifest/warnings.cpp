@@ -110,8 +110,8 @@ void look_at_minimiser(const JamOptions& options, const std::vector<Flag>& exclu
     if (energy < options.compression.target_energy) continue;
     warnings.add(name, "",
                  fmt::format("{} is not below target_energy {}: a state at the target would count as unjammed; "
-                             "decrease it",
-                             energy, options.compression.target_energy));
+                             "decrease {}",
+                             energy, options.compression.target_energy, name));
   }
 }
 
@@ -160,7 +160,7 @@ void look_at_solid(const JamOptions& options, const Known& solid, Warnings& warn
   if (options.minimise.method != Method::multipliers && options.minimise.unjammed_energy >= last) {
     warnings.add("unjammed_energy", name,
                  fmt::format("{} is not below the E/N of {} packings at final_distance {}, which is about {:.1g}: they "
-                             "would count as unjammed; decrease it",
+                             "would count as unjammed; decrease unjammed_energy",
                              options.minimise.unjammed_energy, name, options.decompression.final_distance, last));
   }
   if (solid.kind == SolidKind::tetrahedron && options.compression.relaxation == Consolidation::relaxed &&

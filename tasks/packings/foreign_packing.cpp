@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -159,6 +160,16 @@ PeriodicCell cell_of(const Eigen::Matrix3d& vectors) {
 }
 
 }  // namespace
+
+std::size_t index_of_frame(std::size_t frames, int frame) {
+  const auto count = static_cast<std::int64_t>(frames), index = frame < 0 ? count + frame : frame;
+  if (count == 0) throw ContentError("the file has no frame");
+  if (index < 0 || index >= count)
+    throw ContentError(
+        fmt::format("the file has {} {}, but /start/frame is {}", count, count == 1 ? "frame" : "frames", frame),
+        count == 1 ? "set it to 0" : fmt::format("set it to a value from 0 to {}", count - 1));
+  return static_cast<std::size_t>(index);
+}
 
 Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture, const TypeNames& types,
                    std::vector<std::string>* notes) {

@@ -39,6 +39,10 @@ ForeignPacking read_gsd_packing(const std::string& bytes, int frame);
 /// size if particles have different sizes. Frame −1 is the last one. Throws ContentError.
 ForeignPacking read_xyz_packing(std::string_view text, int frame);
 
+/// Index of a frame that /start/frame gives: from 0, or from −1 for the last one. Throws ContentError if the file does
+/// not have this frame.
+std::size_t index_of_frame(std::size_t frames, int frame);
+
 /// For types of a file without shapes, the names of their solids.
 using TypeNames = std::map<std::string, std::string, std::less<>>;
 

@@ -121,7 +121,8 @@ std::optional<std::vector<double>> GsdFile::numbers(std::uint64_t frame, std::st
     if (!std::isfinite(values[k]))
       throw ContentError(
           fmt::format("row {} of its chunk {} contains a value that is not a finite number", k / columns, name),
-          "remove this particle or frame, or write the file again");
+          name.starts_with("particles/") ? "remove this particle or frame, or write the file again"
+                                         : "remove this frame, or write the file again");
   }
   return values;
 }

@@ -32,7 +32,7 @@ void read_shape(const std::string& text, ForeignPacking::Type& type) {
   }
   const auto kind = shape.contains("type") && shape.at("type").is_string() ? shape.at("type").get<std::string>() : "";
   if (kind != "ConvexPolyhedron") {
-    type.foreign_shape = kind.empty() ? "without a type" : in_quotes(kind);
+    type.foreign_shape = kind.empty() ? "without a type" : "of the kind " + in_quotes(kind);
     return;
   }
   if (!shape.contains("vertices") || !shape.at("vertices").is_array()) {
@@ -69,10 +69,7 @@ ForeignPacking read_gsd_packing(const std::string& bytes, int frame) {
   const GsdFile file(bytes);
   if (file.schema() != "hoomd")
     throw ContentError(fmt::format("its schema is \"{}\" instead of \"hoomd\"", file.schema()));
-  const auto frames = static_cast<std::int64_t>(file.frames());
-  const auto index = frame < 0 ? frames + frame : frame;
-  if (index < 0 || index >= frames) throw ContentError(fmt::format("it has only {} frames", frames));
-  const auto which = static_cast<std::uint64_t>(index);
+  const std::uint64_t which = index_of_frame(file.frames(), frame);
 
   ForeignPacking packing;
   const auto box = file.numbers(which, "configuration/box", 1);

@@ -63,7 +63,7 @@ Solid made_solid(const JsonPlace& place, const std::string& name, const std::vec
   auto solid = Solid::made_of(name, vertices);
   if (cubed(2 * solid->diameter()) > largest_cell)
     place.refuse("the solid is too long or too flat for any periodic cell",
-                 fmt::format("a diameter of at most {:.0f} cube roots of its volume",
+                 fmt::format("a diameter of at most {:.0f} times the cube root of its volume",
                              std::floor(nearest::cbrt(largest_cell) / 2)));
   return solid;
 }

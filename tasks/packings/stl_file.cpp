@@ -44,8 +44,8 @@ void read_facet(TextLines& lines, Mesh& mesh) {
     for (double& x : point) x = coordinate_in(lines, lines.next_word());
   }
   if (face.points.size() < 3)
-    lines.refuse(fmt::format("{} after {} of three corners of a facet", word.empty() ? "the end" : in_quotes(word),
-                             face.points.size()),
+    lines.refuse(fmt::format("{} after {} of 3 corners of a facet",
+                             word.empty() ? "the file ends" : in_quotes(word) + " follows", face.points.size()),
                  "write three lines \"vertex x y z\" for each facet");
   expect(lines, "endloop", word);
   expect(lines, "endfacet", lines.next_word());
@@ -79,8 +79,11 @@ Mesh read_binary_stl(std::string_view bytes) {
   const std::size_t end = head_size + triangle_size * std::size_t{count};
   if (end > bytes.size())
     throw ContentError(
-        fmt::format("a binary STL file of {} triangles has {} bytes; this file has {} bytes", count, end, bytes.size()),
-        "copy or save the file again; it may be truncated, or have another format");
+        fmt::format(
+            "the header announces {} triangles ({} bytes), but the file has {} bytes, so it is truncated or has "
+            "another format",
+            count, end, bytes.size()),
+        "copy or save it again");
   if (count > most_faces) refuse_too_many(0);
   Mesh mesh;
   for (std::size_t at = head_size; at < end; at += triangle_size) {

@@ -32,7 +32,7 @@ class Header {
   }
 
   const std::string& at(std::string_view key, std::string_view example) const {
-    const auto found = values_.find(key);
+    const auto found = values_.find(lower_case(key));
     if (found == values_.end()) lines_.refuse(fmt::format("the line has no {}", key), fmt::format("add {}", example));
     return found->second;
   }
@@ -129,11 +129,7 @@ std::size_t go_to_frame(TextLines& lines, std::string_view text, int frame) {
                     "complete the frame, or correct its number of particles");
     }
   }
-  const auto all = static_cast<int>(frames.size()), index = frame < 0 ? all + frame : frame;
-  if (index < 0 || index >= all)
-    throw ContentError(fmt::format("it has {} frames; frame {} does not exist", all, frame),
-                       fmt::format("set /start/frame to a value from 0 to {}", std::max(all - 1, 0)));
-  lines = frames[static_cast<std::size_t>(index)];
+  lines = frames[index_of_frame(frames.size(), frame)];
   return *next_count(lines);
 }
 
@@ -145,12 +141,12 @@ ForeignPacking read_xyz_packing(std::string_view text, int frame) {
   lines.next_line();
   const Header header(lines);
   ForeignPacking packing;
-  const auto& lattice_text = header.at("lattice", "Lattice=\"ax ay az bx by bz cx cy cz\"");
+  const auto& lattice_text = header.at("Lattice", "Lattice=\"ax ay az bx by bz cx cy cz\"");
   const auto lattice = words_of(lattice_text);
   if (lattice.size() != 9)
     lines.refuse(fmt::format("the Lattice has {} numbers", lattice.size()), "write three vectors of three numbers");
   for (std::size_t k = 0; k < 9; ++k) packing.cell.data()[k] = lines.real(lattice[k]);
-  const auto columns = columns_of(lines, header.at("properties", "Properties=species:S:1:pos:R:3:orientation:R:4"));
+  const auto columns = columns_of(lines, header.at("Properties", "Properties=species:S:1:pos:R:3:orientation:R:4"));
   const auto species = columns.at(lines, "species", 1), pos = columns.at(lines, "pos", 3),
              orientation = columns.at(lines, "orientation", 4);
   const auto size = columns.find(lines, "size", 1);

@@ -51,6 +51,19 @@ bool has_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec) {
   return replicate.record.at("spec") == to_json(planned);
 }
 
+/// Returns the result of `read`. An error of a record, packing or path gets the same remedy, unless it states its own.
+template <class Read>
+auto with_remedy(const Read& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    auto details = error.details();
+    details.suggestion.clear();
+    if (details.remedy.empty()) details.remedy = how_to_recompute;
+    throw InputError(std::move(details));
+  }
+}
+
 /// Returns the result of `read`. A missing file is an error of the results, because a list or a record names it.
 template <class Read>
 auto expect_present(const std::string& file, const Read& read) {
@@ -58,7 +71,7 @@ auto expect_present(const std::string& file, const Read& read) {
     return read();
   } catch (const FileError& error) {
     if (error.reason() != FileError::Reason::missing) throw;
-    throw InputError({file, "", "the file is missing", "an unchanged file written by isojam", ""});
+    throw InputError({file, "", "the file is missing", "", ""});
   }
 }
 
@@ -67,8 +80,10 @@ template <class Read>
 auto with_state_file(const fs::path& directory, const RecordedReplicate& replicate, const std::string& folder,
                      const Read& read) {
   const auto file = file_in(directory, folder, replicate.name);
-  return expect_present(
-      file, [&] { return read(file, folder == "paths" ? path_schema : packing_schema, identities_of(replicate)); });
+  return with_remedy([&] {
+    return expect_present(
+        file, [&] { return read(file, folder == "paths" ? path_schema : packing_schema, identities_of(replicate)); });
+  });
 }
 
 /// Summarises a record of the current schema. `digest` is the result digest of the file.
@@ -76,9 +91,11 @@ RecordedReplicate summarised(Json record, const std::string& file, const std::st
                              bool is_earlier) {
   auto summary = summarise_record(record, file);
   if (digest != summary.result_digest)
-    throw InputError({file, "/result_digest", "the digest does not match the result", digest, ""});
+    throw InputError(
+        {file, "/result_digest", "the record was changed: its result does not match its digest", digest, ""});
   if (const auto own = name_of(summary); own != name)
-    throw InputError({file, "/spec", "the file name does not match the replicate", own + ".json", ""});
+    throw InputError(
+        {file, "/spec", fmt::format("the file name does not match the replicate {}", own), own + ".json", ""});
   return {name, std::move(record), std::move(summary), is_earlier};
 }
 
@@ -94,11 +111,11 @@ RecordedReplicate parsed_record(const std::string& text, const std::string& file
 
 RecordedReplicate read_record(const fs::path& directory, const std::string& name) {
   const auto file = file_in(directory, "records", name);
-  return parsed_record(expect_present(file, [&] { return read_result(file); }), file, name);
+  return with_remedy(
+      [&] { return parsed_record(expect_present(file, [&] { return read_result(file); }), file, name); });
 }
 
-static RecordedReplicate read_quickly(const fs::path& directory, const std::string& name, States states) {
-  const auto file = file_in(directory, "records", name);
+static RecordedReplicate read_quickly(const std::string& file, const std::string& name, States states) {
   const auto text = expect_present(file, [&] { return read_result(file); });
   if (auto shorter = abridged(text, states)) {
     const auto is = [&](const char* key, std::string_view value) {
@@ -112,11 +129,11 @@ static RecordedReplicate read_quickly(const fs::path& directory, const std::stri
 }
 
 RecordedReplicate read_abridged_record(const fs::path& directory, const std::string& name) {
-  return read_quickly(directory, name, States::keep);
+  return with_remedy([&] { return read_quickly(file_in(directory, "records", name), name, States::keep); });
 }
 
 RecordedReplicate read_record_without_states(const fs::path& directory, const std::string& name) {
-  return read_quickly(directory, name, States::drop);
+  return with_remedy([&] { return read_quickly(file_in(directory, "records", name), name, States::drop); });
 }
 
 bool is_of(const RecordedReplicate& replicate, const Plan& plan) {
@@ -207,7 +224,12 @@ std::vector<std::string> names_in(const fs::path& folder) {
     const auto name = entry.path().filename().string();
     if (name.front() != '.' && entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   }
-  if (error == std::errc::not_a_directory) expect_directory(folder.parent_path());
+  if (error == std::errc::not_a_directory) {
+    expect_directory(folder.parent_path());
+    throw FileError(
+        fmt::format("{}: is a file instead of a folder; remove it, or {}", folder.string(), choose_another_directory),
+        FileError::Reason::missing);
+  }
   if (error && error != std::errc::no_such_file_or_directory)
     throw FileError::of_error(folder, "cannot be listed", error);
   std::sort(names.begin(), names.end());

@@ -27,8 +27,8 @@ RecordedReplicate read_record(const std::filesystem::path& directory, const std:
 /// Reads the same record in less time, for tables. The key `path` is missing in `record`, and lists inside its states
 /// may be empty, except histograms of angles.
 RecordedReplicate read_abridged_record(const std::filesystem::path& directory, const std::string& name);
-/// Reads the same record in still less time, for `isojam status` and for tables of the nearest states. The list of states
-/// may be empty.
+/// Reads the same record in still less time, for `isojam status` and for tables of the nearest states. The list of
+/// states may be empty.
 RecordedReplicate read_record_without_states(const std::filesystem::path& directory, const std::string& name);
 
 /// True if the record has the result that this plan requests, apart from measures. This is the case if the identity()

@@ -36,6 +36,10 @@ JamResult run_jam(const ReplicateSpec& spec, JamProgress from, std::stop_token s
 
 }  // namespace
 
+std::string_view stage_text(std::string_view stage) {
+  return stage == to_string(JamStage::consolidation) ? "compression" : "decompression";
+}
+
 Stages engine_stages() {
   return {begin, run_jam, [](const ReplicateSpec& spec, Measure what, const JamResult& jam) {
             return measure(what, jam, spec.measuring);

@@ -26,6 +26,9 @@ struct Timing {
   double wall_seconds = 0, cpu_seconds = 0;
 };
 
+/// Name of a stage of the protocol in messages: compression for `consolidation`, decompression for `expansion`.
+std::string_view stage_text(std::string_view stage);
+
 /// Result of one replicate, also of a failed or interrupted one.
 struct Outcome {
   ReplicateSpec spec;

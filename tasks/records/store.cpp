@@ -91,7 +91,7 @@ const Manifest& larger(const std::optional<Manifest>& before, const Manifest& ma
 
 /// Throws if a record belongs to another manifest. Checks the records that are not in the plan. If `all` is true,
 /// checks all records. `all` is true if the directory has no manifest or a manifest with another digest.
-void check_records(const fs::path& directory, const Manifest& manifest, bool all, const Warn& warn) {
+void check_records(const fs::path& directory, const Manifest& manifest, bool all) {
   const auto names = names_in(directory / "records");
   if (names.empty()) return;
   const Plan plan(manifest);
@@ -102,9 +102,7 @@ void check_records(const fs::path& directory, const Manifest& manifest, bool all
     std::optional<RecordedReplicate> held;
     try {
       held = read_record(directory, name);
-    } catch (const InputError& damage) {
-      if (!planned)
-        warn(fmt::format("{}; the manifest has no such replicate, so the file was left unchanged", damage.what()));
+    } catch (const InputError&) {
       continue;
     }
     if (is_of(*held, plan) || is_superseded(*held, plan)) continue;
@@ -175,14 +173,17 @@ Manifest claim(const fs::path& directory, const Manifest& manifest) {
 
 void throw_without_records(const fs::path& directory) {
   expect_directory(directory);
-  throw FileError(fmt::format("{}: {}; {}", directory.string(), no_results, how_to_get_results),
-                  FileError::Reason::missing);
+  std::error_code ignored;
+  const auto problem = fs::exists(directory / "manifest.json", ignored)
+                           ? std::string(no_records)
+                           : fmt::format("{}; {}", no_results, how_to_get_results);
+  throw FileError(fmt::format("{}: {}", directory.string(), problem), FileError::Reason::missing);
 }
 
-void check_directory(const fs::path& directory, const Manifest& manifest, const Warn& warn) {
+void check_directory(const fs::path& directory, const Manifest& manifest) {
   refuse_links(directory);
   const auto before = manifest_in(directory, manifest);
-  check_records(directory, larger(before, manifest), !before || digest(*before) != digest(manifest), warn);
+  check_records(directory, larger(before, manifest), !before || digest(*before) != digest(manifest));
 }
 
 Store::Store(fs::path directory, const Manifest& manifest, Warn warn)
@@ -190,7 +191,7 @@ Store::Store(fs::path directory, const Manifest& manifest, Warn warn)
       digest_(digest(manifest)),
       keep_path_(manifest.keep_path),
       warn_(std::move(warn)) {
-  check_directory(directory_, manifest, warn_);
+  check_directory(directory_, manifest);
   make_own_folder(directory_);
   kept_ = claim(directory_, manifest);
   plan_ = std::make_shared<const Plan>(kept_);
@@ -222,12 +223,14 @@ std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
         throw InputError({path, "/failure", std::string(resource_failure_recorded), "", ""});
       check_companions(directory_, held, keep_path_);
       if (!lacks(held, kept_).empty())
-        throw InputError({path, "/spec/measure", "lacks measures that were added to the manifest later", "", "",
-                          "\"isojam measure\" would add them in less time"});
+        throw InputError({path, "/spec/measure",
+                          "lacks measures that were added to the manifest later (\"isojam measure\" would add them in "
+                          "less time)",
+                          "", ""});
       return std::move(held.summary);
     }
   } catch (const InputError& damage) {
-    warn_(fmt::format("{}; {}", damage.what(), recomputed));
+    warn_(fmt::format("{}; {}", problem_line(damage.details()), recomputed));
   }
   if (!theirs.empty()) refuse_other(path, digest_pointer, digests(theirs, digest_));
   return std::nullopt;
@@ -239,7 +242,7 @@ std::optional<Checkpoint> Store::checkpoint(const ReplicateSpec& spec) const {
     const auto document = read_sealed(path);
     return read_checkpoint({document, path}, spec);
   } catch (const InputError& damage) {
-    warn_(fmt::format("{}; the replicate starts from the beginning", damage.what()));
+    warn_(fmt::format("{}; the replicate starts from the beginning", problem_line(damage.details())));
   } catch (const FileError& error) {
     if (error.reason() != FileError::Reason::missing) throw;
   }
@@ -319,23 +322,24 @@ void for_each_record(const fs::path& directory, const std::optional<Manifest>& m
   const auto measures = manifest ? to_json(*manifest).at("measure") : Json();
   struct Read {
     std::optional<RecordedReplicate> held;
-    std::string damage;
+    std::string ignored;  ///< name of a file that is not a record
   };
   const auto read = [&](std::size_t index) -> Read {
     try {
       return {read_one(directory, names[index]), ""};
-    } catch (const InputError& damage) {
+    } catch (const InputError&) {
       if (!plan || plan->place_of(names[index])) throw;
-      return {std::nullopt, damage.what()};
+      return {std::nullopt, names[index]};
     }
   };
+  const auto file_of = [&](const std::string& name) { return (directory / "records" / (name + ".json")).string(); };
   in_order(names.size(), read, [&](Read one) {
     if (!one.held) {
-      warn(one.damage + "; the manifest has no such replicate, so the file is ignored");
+      warn(file_of(one.ignored) +
+           ": is ignored, because the manifest has no such replicate; remove the file, or correct its name");
     } else if (plan && one.held->summary.manifest_digest != own && !is_of(*one.held, *plan)) {
       if (is_superseded(*one.held, *plan)) return;
-      warn(fmt::format("{}: {}; the record is ignored", (directory / "records" / (one.held->name + ".json")).string(),
-                       other_manifest));
+      warn(fmt::format("{}: {}; the record is ignored", file_of(one.held->name), other_manifest));
     } else {
       // A record without a measure still counts for the quantities that it has.
       if (manifest) {

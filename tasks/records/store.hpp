@@ -21,10 +21,10 @@ using Warn = std::function<void(const std::string&)>;
 /// Checks whether results of this manifest may be written to a directory. It only reads files. Throws InputError if the
 /// directory has another manifest or records of another manifest; the error states what differs. The sweep of
 /// `manifest` may be larger or smaller than that of the directory. Settings of failed replicates may have changed;
-/// these replicates are computed again. A damaged record of the plan is ignored, because it will be recomputed. For a
-/// damaged record that is not in the plan, `warn` is called. Throws FileError if a file cannot be read at the moment,
-/// or if one of the folders is a symbolic link, because results would then be written to another directory.
-void check_directory(const std::filesystem::path& directory, const Manifest& manifest, const Warn& warn);
+/// these replicates are computed again. Damaged records are ignored: a record of the plan will be recomputed, and for
+/// others for_each_record() gives a warning. Throws FileError if a file cannot be read at the moment, or if one of the
+/// folders is a symbolic link, because results would then be written to another directory.
+void check_directory(const std::filesystem::path& directory, const Manifest& manifest);
 
 /// A results directory. It contains manifest.json, tables.json, and the folders records/, packings/, paths/ and
 /// checkpoints/ with one file for each replicate. All files are written atomically and have a checksum. Records,

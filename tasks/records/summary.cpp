@@ -112,6 +112,13 @@ void read_flags(const JsonPlace& flags, RecordSummary& summary) {
   }
 }
 
+/// Throws unless the value is the name of this format.
+void check_format(const JsonPlace& place, std::string_view format) {
+  if (const auto theirs = place.text(); theirs != format)
+    place.refuse_with_remedy(fmt::format("the file has the format {}, which this version cannot read", theirs),
+                             "use the version of isojam that wrote it");
+}
+
 }  // namespace
 
 bool has_any(const RecordSummary& summary, const std::vector<Flag>& flags) {
@@ -121,7 +128,7 @@ bool has_any(const RecordSummary& summary, const std::vector<Flag>& flags) {
 
 RecordSummary summarise_record(const Json& record, const std::string& file) {
   const JsonPlace root(record, file);
-  root.at("schema").choice(std::array{record_schema});
+  check_format(root.at("schema"), record_schema);
   const auto spec = root.at("spec");
   RecordSummary summary;
   summary.solid = read_mixture(spec);

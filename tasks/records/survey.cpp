@@ -109,7 +109,8 @@ void survey_checkpoints(const fs::path& directory, const Plan& plan, Survey& sur
       survey.under_way.push_back(under_way(directory / "checkpoints" / (name + ".json")));
       ++survey.points[place->point].under_way;
     } catch (const InputError& damage) {
-      survey.damaged.emplace_back(damage.what());
+      survey.damaged.push_back(
+          fmt::format("{}; the next run starts this replicate from the beginning", problem_line(damage.details())));
     } catch (const FileError& error) {
       // The checkpoint was removed after the folder was listed, because its replicate now has a record.
       if (error.reason() != FileError::Reason::missing) throw;

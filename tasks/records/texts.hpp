@@ -9,6 +9,9 @@ namespace isojam {
 inline constexpr std::string_view no_directory = "no such directory";
 inline constexpr std::string_view no_results = "contains no results";
 inline constexpr std::string_view how_to_get_results = "give a results directory of isojam run";
+inline constexpr std::string_view no_records = "contains no records yet; run its manifest first";
+inline constexpr std::string_view how_to_recompute =
+    "run the manifest again in this directory to recompute the replicate";
 inline constexpr std::string_view other_manifest = "contains results of another manifest";
 inline constexpr std::string_view choose_another_directory = "choose another results directory";
 inline constexpr std::string_view resource_failure_recorded =

@@ -49,7 +49,7 @@ std::optional<std::string> without_states(const fs::path& directory, const Recor
     check_companions(directory, held, has_path(directory, held));
     return std::nullopt;
   } catch (const InputError& error) {
-    return error.what();
+    return problem_line(error.details());
   }
 }
 
@@ -114,9 +114,9 @@ Additions additions(const fs::path& directory, const Plan& plan, const std::vect
     if (lacks(held, plan.manifest()).empty()) continue;
     auto spec = plan.at(place->point, place->replicate);
     if (held.is_earlier) {
-      result.impossible.push_back({name, fmt::format("{}: the record has the schema {} of an earlier version, to which "
-                                                     "nothing can be added; remove it and run it again",
-                                                     name, earlier_record_schema)});
+      result.impossible.push_back({name, fmt::format("the record has the schema {} of an earlier version, to which "
+                                                     "nothing can be added",
+                                                     earlier_record_schema)});
     } else if (!held.summary.failed) {
       if (const auto why = without_states(directory, held)) {
         result.impossible.push_back({name, *why});

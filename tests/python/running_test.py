@@ -159,7 +159,7 @@ class Failures(Case):
         self.assertEqual(set(study.replicates["status"]), {"failed"})
         texts = [str(warning.message) for warning in warned.warnings]
         for name in study.names:
-            self.assertEqual(len([text for text in texts if text.startswith(f"{name} failed in ")]), 1, texts)
+            self.assertEqual(len([text for text in texts if text.startswith(f"{name} failed: ")]), 1, texts)
 
     def test_other_failures_are_errors_of_the_program(self):
         self.run_quietly(MANIFEST, "r")

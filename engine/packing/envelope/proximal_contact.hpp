@@ -13,17 +13,17 @@ namespace isojam {
 // first three are the translation. The other three are 2 R_B v, where v is the vector part of the unit quaternion of
 // the rotation and R_B is the radius of gyration of B. All components are in the body frame of B. If A and B move
 // together as one rigid body, the ghost moves with them, and w does not change. Let e(w) be the energy of A and the
-// ghost of B. The wrench is its derivative ∇_w e. The first three components of the wrench are the negative of the force
-// on the ghost. At w = 0, the other three are the negative of the torque on the ghost, divided by R_B. The unit of a
-// wrench is Y·V_p^(2/3).
+// ghost of B. The wrench is its derivative ∇_w e. The first three components of the wrench are the negative of the
+// force on the ghost. At w = 0, the other three are the negative of the torque on the ghost, divided by R_B. The unit
+// of a wrench is Y·V_p^(2/3).
 
 /// Parameters of the Moreau envelope Φ of a contact,
 ///   Φ = min_w [ e(w) + ½ ρ |w|² − μ·w ].
 /// The multiplier μ is an estimate of the wrench, and ρ is an upper limit of the stiffness of the envelope. If ∇_w e =
 /// μ at w = 0, then the minimum is at w = 0: the ghost coincides with B, and Φ = e. If the contact is much stiffer than
-/// ρ, Φ is approximately the energy of a spring with stiffness ρ. This spring is already loaded when A and B just touch:
-/// the derivative of Φ with respect to the displacement of B is then μ. If the contact is much softer than ρ, Φ is
-/// approximately e (Moreau 1965; method of multipliers of Hestenes and Powell 1969 in the form of Rockafellar 1973).
+/// ρ, Φ is approximately the energy of a spring with stiffness ρ. This spring is already loaded when A and B just
+/// touch: the derivative of Φ with respect to the displacement of B is then μ. If the contact is much softer than ρ, Φ
+/// is approximately e (Moreau 1965; method of multipliers of Hestenes and Powell 1969 in the form of Rockafellar 1973).
 struct ProximalTerms {
   Vector6d multiplier = Vector6d::Zero();  ///< multiplier μ
   double stiffness = 0;                    ///< stiffness ρ > 0, in units of Y·V_p^(1/3)

@@ -10,11 +10,14 @@
 #include "tasks/io/file.hpp"
 #include "tasks/io/interrupt.hpp"
 #include "tasks/io/standard_streams.hpp"
+#include "tasks/io/usage_error.hpp"
 
 namespace isojam {
 namespace {
 
 ChartConfig config_of(const ChartArguments& arguments) {
+  if (arguments.full && !arguments.config.empty())
+    throw UsageError("CONFIG and --full cannot be combined; remove one of them");
   if (!arguments.config.empty()) return parse_chart_config(read_text(arguments.config), arguments.config);
   return arguments.full ? full_chart_config() : ChartConfig();
 }

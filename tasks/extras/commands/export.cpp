@@ -10,6 +10,7 @@
 #include "tasks/extras/commands/extra_commands.hpp"
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/usage_error.hpp"
+#include "tasks/records/failure_text.hpp"
 #include "tasks/records/store.hpp"
 #include "tasks/records/texts.hpp"
 
@@ -39,13 +40,6 @@ ExitCode export_results(const ExportArguments& arguments, Console& console) {
   return is_table(arguments.what) ? export_rows(arguments, console) : export_packings(arguments, console);
 }
 
-/// Text of the failure; nullopt if the replicate did not fail.
-std::optional<std::string> failure_text(const JsonPlace& record) {
-  if (record.at("status").choice(std::array<std::string_view, 2>{"done", "failed"}) == 0) return std::nullopt;
-  const auto failure = record.at("failure");
-  return fmt::format("failed in {}: {}", failure.at("where").text(), failure.at("why").text());
-}
-
 std::string record_file(const ExportArguments& arguments, const std::string& name) {
   return (fs::path(arguments.directory) / "records" / (name + ".json")).string();
 }
@@ -67,9 +61,9 @@ RecordedReplicate own_record(const ExportArguments& arguments, const std::option
 }
 
 bool has_packing(const ExportArguments& arguments, const RecordedReplicate& held, Console& console) {
-  const auto failure = failure_text({held.record, record_file(arguments, held.name)});
-  if (!failure) return true;
-  const auto message = fmt::format("{} {}; it has no packing", held.name, *failure);
+  if (!held.summary.failed) return true;
+  const auto message =
+      fmt::format("{} has no packing, because the replicate failed: {}", held.name, failure_text(held.record));
   if (!arguments.all()) throw UsageError(message);
   console.warn(message);
   return false;
@@ -83,7 +77,9 @@ void add_export(CLI::App& app, Session& session) {
   options.results_directory(arguments->directory);
   options.text("replicate", arguments->replicate, "Name of the replicate (its file in records/ without .json), or all",
                "REPLICATE", Options::Need::required);
-  options.choice("--format", arguments->what, "Format of the packings, or rows of the table", Options::Need::required);
+  options.choice("--format", arguments->what,
+                 "Format of the packings (gsd, vtp, xyz), or table to export (contacts, replicates, states)",
+                 Options::Need::required);
   options.text(
       "-o,--output", arguments->output,
       "Packings: output file, or a directory for all replicates. Tables: output file (default: standard output); JSON "

@@ -27,8 +27,8 @@ void add_report(CLI::App& app, Session& session) {
   auto options = add_command(app, session, "report", "Write an interactive HTML report of results directories",
                              write_report, arguments);
   options.texts("directories", arguments->directories, "Results directories", "DIR");
-  options.text("-o,--output", arguments->output, "Output file (default: DIR/report.html; required for several DIR)",
-               "FILE");
+  options.text("-o,--output", arguments->output,
+               "Output file (default: DIR/report.html; required for several directories)", "FILE");
 }
 
 void add_chart(CLI::App& app, Session& session) {
@@ -37,8 +37,7 @@ void add_chart(CLI::App& app, Session& session) {
                              write_chart, arguments);
   options.text("config", arguments->config,
                "Configuration of the comparison (default: all comparisons in five minutes)", "CONFIG");
-  options.flag("--full", arguments->full, "Make all comparisons in detail, in about an hour");
-  options.exclusive("--full", "config");
+  options.flag("--full", arguments->full, "Make all comparisons in detail, in about an hour (without CONFIG)");
   options.text("-o,--output", arguments->directory, "Output directory for data.json, table.txt and chart.html", "DIR",
                Options::Need::required);
 }

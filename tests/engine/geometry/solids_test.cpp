@@ -161,12 +161,12 @@ TEST(Hull, IsRejectedWithMoreFeaturesThanTheLimits) {
   // All faces except the top are triangles: E = 3V − 6 − (corners − 3) and F = 2V − 4 − (corners − 3).
   EXPECT_EQ(refusal(with_top(66, 3)), "") << "192 edges, 128 faces";
   EXPECT_EQ(refusal(with_top(67, 6)), "") << "192 edges, 127 faces";
-  const std::string limits = "a solid may have at most 192 edges and 128 faces instead of ";
-  EXPECT_EQ(refusal(with_top(67, 5)), limits + "193 and 128");
-  EXPECT_EQ(refusal(with_top(67, 4)), limits + "194 and 129");
+  const std::string limits = " faces, but at most 192 edges and 128 faces are allowed";
+  EXPECT_EQ(refusal(with_top(67, 5)), "the solid has 193 edges and 128" + limits);
+  EXPECT_EQ(refusal(with_top(67, 4)), "the solid has 194 edges and 129" + limits);
   Points many;
   for (int k = 0; k < 129; ++k) many.emplace_back(std::cos(k), std::sin(k), .01 * k);
-  EXPECT_EQ(refusal(many), "a solid may have at most 128 vertices instead of 129");
+  EXPECT_EQ(refusal(many), "the solid has 129 vertices, but at most 128 are allowed");
 }
 
 TEST(Inertia, OfABoxIsThatOfTextbooks) {

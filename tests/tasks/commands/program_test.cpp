@@ -140,7 +140,11 @@ TEST(Program, NamesWrongAndMissingArguments) {
       {{"run"}, "MANIFEST is required; see \"isojam run --help\""},
       {{"run", "m.json", "one", "two"}, "unexpected argument \"one\"; see \"isojam run --help\""},
       {{"--messages"}, "--messages needs a value; expected one of \"text\", \"json\""},
-      {{"run", "m.json", "-j"}, "--threads needs a value; expected N"},
+      {{"run", "m.json", "-j"}, "--threads needs a value; expected an integer"},
+      {{"run", "m.json", "-o"}, "--output needs a value; expected a path"},
+      {{"run", "m.json", "-j", "1", "-j", "2"}, "--threads is given 2 times; give it once"},
+      {{"completions"}, "shell is required; expected one of \"bash\", \"zsh\", \"fish\""},
+      {{"chart", "c.json", "--full", "-o", "chart"}, "CONFIG and --full cannot be combined; remove one of them"},
   };
   for (const auto& wrong : cases) {
     const auto run = isojam(wrong.arguments, directory.path());
@@ -194,6 +198,29 @@ TEST(Program, AFileForADirectoryAndADirectoryForAFileAreRefusedWithTheRemedy) {
     EXPECT_EQ(isojam({command, "empty"}, directory.path()).err,
               "isojam: error: empty: is a directory; give a manifest\n");
   }
+}
+
+TEST(Program, WrongOutputsAreRefusedWithTheRemedy) {
+  const TemporaryDirectory directory;
+  test::write_text(directory / "m.json", test::good_manifest().dump());
+  std::filesystem::create_directories(directory / "r/records");
+  test::write_text(directory / "r/manifest.json", test::good_manifest().dump());
+  for (const auto& [command, says] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"run", "m.json", "-o", "m.json"}, "m.json: is a file; give a directory with -o"},
+           {{"aggregate", "r"}, "r: contains no records yet; run its manifest first"},
+           {{"manual", "-o", "r"}, "r: is a directory; give a file"},
+           {{"manual", "-o", "no/m.1"}, "no: no such directory; create it, or choose another output"}}) {
+    const auto run = isojam(command, directory.path());
+    EXPECT_EQ(run.exit_code, 2) << says;
+    EXPECT_EQ(run.err, "isojam: error: " + says + "\n");
+  }
+  std::filesystem::remove(directory / "r/records");
+  test::write_text(directory / "r/records", "");
+  const auto run = isojam({"aggregate", "r"}, directory.path());
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(run.err,
+            "isojam: error: r/records: is a file instead of a folder; remove it, or choose another results "
+            "directory\n");
 }
 
 TEST(Program, ADryRunPrintsReadableNumbers) {

@@ -94,6 +94,8 @@ TEST(BySolid, RefusesWhatHasNoMeaning) {
   const auto by_solid = [](const Json& values) { return manifest_of({"octahedron"}, {{"by_solid", values}}); };
   const Json limit{{"max_density", 1.05}};
   EXPECT_NE(refusal(by_solid({{"octahedrons", limit}})).find("did you mean \"octahedron\""), std::string::npos);
+  EXPECT_NE(refusal(by_solid({{"cube", limit}})).find("/cube: cube is not in /sweep/solid; add it there, or remove"),
+            std::string::npos);
   EXPECT_NE(refusal(by_solid({{"octahedron", {{"max_densty", 1}}}})).find("did you mean \"max_density\""),
             std::string::npos);
   EXPECT_NE(refusal(by_solid({{"octahedron", {{"max_density", 3}}}})).find("/protocol/by_solid/octahedron/max_density"),

@@ -54,5 +54,14 @@ TEST(Differences, AreLimitedAndThoseOfTheDigest) {
   EXPECT_EQ(differences(parse(same), parse(good_manifest())), "");
 }
 
+TEST(Differences, OfStartFilesAreNotShownAsDigests) {
+  auto before = parse(good_manifest());
+  before.start = Start{};
+  before.start->files.push_back({"a.gsd", -1, "0123456789abcdef", {}});
+  auto now = before;
+  now.start->files[0].digest = "fedcba9876543210";
+  EXPECT_EQ(differences(before, now), "the files of /start/packing are not those of the first run");
+}
+
 }  // namespace
 }  // namespace isojam

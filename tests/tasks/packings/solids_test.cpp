@@ -101,7 +101,7 @@ TEST(SolidDefinitions, TooManyFeaturesAreRejected) {
   std::string all;
   EXPECT_EQ(refused(swept({{"ball", {{"vertices", sphere}}}}, {"ball"}), &all),
             std::vector<std::string>{"/solids/ball/vertices"});
-  EXPECT_NE(all.find("195 and 130"), std::string::npos) << "edges and faces of 67 points: " << all;
+  EXPECT_NE(all.find("195 edges and 130 faces"), std::string::npos) << "edges and faces of 67 points: " << all;
   EXPECT_NE(all.find("set \"corners\" to 66 or less"), std::string::npos) << all;
 }
 

@@ -264,13 +264,29 @@ TEST(Starts, InvalidStartsAreRejectedAtTheirPlace) {
   expect(said(started({{"packing", "deep.xyz"}}, 64)), "particles 0 and 1 overlap by");
   expect(said(started({{"packing", "deep.xyz"}}, 64)), "/start/packing");
   expect(said(started({{"packing", "none.gsd"}}, 64)), "/start/packing");
-  expect(said(started({{"packing", "a.xyz"}}, 65)), "64 particles do not match 65 particles of octahedron");
+  expect(said(started({{"packing", "a.xyz"}}, 65)),
+         "the packing has 64 particles instead of 65; set /sweep/particles to [64]");
   expect(said(started({{"packing", {"a.xyz", "m.json"}}}, 64)), "/start/packing/1");
   expect(said(started({{"packing", "a.xyz"}, {"density", .97}}, 64)), "max_density");
   expect(said(started({{"packing", "a.xyz"}, {"stage", "later"}}, 64)), "/start/stage");
   auto many = started({{"packing", "a.xyz"}}, 64);
   many["replicates"] = 2;
   expect(said(many), "too few files (1) for 2 replicates");
+  for (const std::string file : {"a.gsd", "a.xyz"})
+    expect(said(started({{"packing", file}, {"frame", 3}}, 64)),
+           file + ": the file has 1 frame, but /start/frame is 3; set it to 0");
+  test::write_text(directory / "hello.gsd", "hello\n");
+  expect(
+      said(started({{"packing", "hello.gsd"}}, 64)),
+      "hello.gsd:1: \"hello\" does not begin a packing in GSD, extended XYZ or the JSON of isojam; save the packing");
+  test::write_text(directory / "cut.gsd", gsd_file(frames).substr(0, 300));
+  expect(said(started({{"packing", "cut.gsd"}}, 64)), "; write the file again, or use another file");
+  test::write_text(directory / "own.json", "{\"schema\": \"x\", \"checksum\": \"0123456789abcdef\"}");
+  const auto own = said(started({{"packing", "own.json"}}, 64));
+  expect(own,
+         "own.json: /checksum: the file is damaged: its content does not match its checksum; write the file again, "
+         "or use another file");
+  EXPECT_EQ(own.find("own.json"), own.rfind("own.json")) << own;
   many = started({{"packing", "a.xyz"}}, 64);
   many["sweep"]["solid"] = {"octahedron", "cube"};
   expect(said(many), "one entry in /sweep/solid");

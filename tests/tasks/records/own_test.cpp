@@ -1,6 +1,7 @@
 // Properties tested here for files that are complete but do not belong where they are:
 // - A packing or path of another replicate, manifest or run is not accepted for a record by any reader.
 // - A record must have the result digest that it states, and must be of the replicate in its file name.
+// - The error of a damaged or missing file states the remedy, except in the warning of a run.
 // - Records of another manifest than that of the directory are reported and left out of the table. Different builds are
 //   reported.
 // - A pipe, a link to an endless device, and a million nested lists are detected as damage at once.
@@ -103,6 +104,39 @@ TEST_F(Own, ARecordHasTheDigestThatItStates) {
   expect_not_held(path("records", 0));
   EXPECT_THROW(table_of({here_.path().string()}, unheard), InputError);
   EXPECT_THROW(read_results(here_.path(), unheard), InputError);
+}
+
+TEST_F(Own, EveryErrorOfAFileHasARemedy) {
+  const std::string recompute = "; run the manifest again in this directory to recompute the replicate";
+  const auto record = read_text(path("records", 0));
+  const auto expect = [&](const fs::path& file, const std::string& says, const std::string& remedy) {
+    std::string said;
+    try {
+      check_companions(here_.path(), read_record(here_.path(), replicate_name(plan_[0])), true);
+    } catch (const InputError& error) {
+      said = error.what();
+    }
+    EXPECT_EQ(said, file.string() + ": " + says + remedy);
+    // A run recomputes the replicate anyway, so its warning has no remedy.
+    warnings_.said.clear();
+    EXPECT_FALSE(store_.recorded(plan_[0]));
+    EXPECT_EQ(warnings_.said, std::vector<std::string>{file.string() + ": " + says + "; the replicate is recomputed"});
+    test::write_text(path("records", 0), record);
+  };
+  const auto file = path("records", 0);
+  change(file, [](Json& json) { json["phi_j"]["value"] = 0.7; });
+  expect(file, "/result_digest: the record was changed: its result does not match its digest", recompute);
+  change(file, [](Json& json) { json["schema"] = "isojam.replicate.v9"; });
+  expect(file, "/schema: the file has the format isojam.replicate.v9, which this version cannot read",
+         "; use the version of isojam that wrote it");
+  change(file, [](Json& json) { json.erase("spec"); });
+  expect(file, "/spec: the required key is missing", recompute);
+  test::write_text(file, record.substr(0, 300));
+  expect(file, "/checksum: the file is damaged: its content does not match its checksum", recompute);
+  test::write_text(file, "{}");
+  expect(file, "/checksum: the file was not written by isojam, or is incomplete: it has no checksum", recompute);
+  fs::remove(path("packings", 0));
+  expect(path("packings", 0), "the file is missing", recompute);
 }
 
 TEST_F(Own, ARecordIsOfTheReplicateInItsName) {

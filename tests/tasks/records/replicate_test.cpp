@@ -1,5 +1,6 @@
 // Properties tested here with real packings of 24 dodecahedra:
-// - If a run stops at max_density or max_steps, the message names the key of the manifest that sets the limit.
+// - If a run stops at max_density or max_steps, the record and the message name the key that sets the limit.
+// - Messages of failures state a remedy that fits the last step.
 // - If φ_J was fitted to states outside the fit window, the replicate is flagged; otherwise it is not.
 // - Exactly these settings cause a warning before the run.
 
@@ -8,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "tasks/manifest/warnings.hpp"
+#include "tasks/records/failure_text.hpp"
+#include "tasks/records/record.hpp"
 #include "tests/tasks/support/support.hpp"
 
 namespace isojam {
@@ -41,8 +44,46 @@ void expect_failure(const Tried& tried, const std::string& status, const std::st
 }
 
 TEST(Replicate, ALimitThatStopsARunIsNamed) {
-  expect_failure(try_with({{"max_density", 0.66}}), "density_limit", "/protocol/max_density");
-  expect_failure(try_with({{"max_steps", 5}}), "step_limit", "/protocol/max_steps");
+  const auto by_density = try_with({{"max_density", 0.66}}), by_steps = try_with({{"max_steps", 5}});
+  expect_failure(by_density, "density_limit", "/protocol/max_density");
+  expect_failure(by_steps, "step_limit", "/protocol/max_steps");
+  const auto text = failure_text(make_record(by_density.outcome));
+  EXPECT_TRUE(text.starts_with("max_density was reached before the end of compression (")) << text;
+  EXPECT_TRUE(text.ends_with("); increase max_density")) << text;
+  const auto steps = failure_text(make_record(by_steps.outcome));
+  EXPECT_TRUE(steps.starts_with("max_steps was reached before the end of compression (5 steps, density ")) << steps;
+  EXPECT_TRUE(steps.ends_with("); increase max_steps")) << steps;
+}
+
+TEST(Replicate, MessagesOfOtherFailuresStateTheRemedyForTheLastStep) {
+  auto outcome = test::made_up_outcome(Plan(parse_manifest(test::tiny_manifest().dump(), "m.json")).at(0, 0));
+  outcome.jam.status = JamStatus::not_jammed;
+  auto& path = outcome.jam.path;
+  path.front().stage = JamStage::consolidation;
+  const auto text_of = [&] {
+    outcome.failure = failure_of(outcome.jam);
+    return failure_text(make_record(outcome));
+  };
+  for (const auto& [reason, remedy] : {std::pair{StopReason::budget, "; increase max_evaluations"},
+                                       {StopReason::unjammed, "; increase target_energy"},
+                                       {StopReason::residual_reached,
+                                        "; decrease final_distance, or increase "
+                                        "target_energy"},
+                                       {StopReason::not_finite, ""}}) {
+    path.back().summary.reason = reason;
+    const auto text = text_of();
+    EXPECT_TRUE(text.starts_with("decompression found fewer than two states (4 steps, density ")) << text;
+    EXPECT_TRUE(text.ends_with(std::string(")") + remedy)) << text;
+  }
+  path.back().summary.reason = StopReason::unjammed;
+  path.front().stage = JamStage::expansion;
+  EXPECT_TRUE(text_of().ends_with("; use a denser initial packing")) << text_of();
+  path.front().lost = true;
+  EXPECT_TRUE(text_of().ends_with(")")) << text_of();
+  outcome.failure = Failure{"modes", "no reason"};
+  EXPECT_EQ(failure_text(make_record(outcome)), "no reason (measure modes)");
+  outcome.failure = Failure{"jam", "the cell is so small that a particle can touch two images of another"};
+  EXPECT_EQ(failure_text(make_record(outcome)), outcome.failure->why + "; use more particles");
 }
 
 TEST(Replicate, StatesOutsideTheFitWindowAreFlagged) {

@@ -194,7 +194,7 @@ std::vector<BadManifest> unreadable() {
       {"blank", " \n\n", "", "the file is empty", false},
       {"prose", "hello", "", ":1:1: not valid JSON", false},
       {"truncated", good.substr(0, good.size() / 2), "", "not valid JSON", false},
-      {"last brace missing", good.substr(0, good.size() - 1), "", "unexpected end of input", false},
+      {"last brace missing", good.substr(0, good.size() - 1), "", "the text ends, but a '}' is missing; add it", false},
       {"second line", "{\n  \"name\": ,\n}", "/name", ":2:11: ", false},
       {"trailing comma", replaced("\"replicates\":2", "\"replicates\":2,"), "", "not valid JSON", false},
       {"trailing text", good + "x", "", "not valid JSON", false},
@@ -213,7 +213,7 @@ std::vector<BadManifest> unreadable() {
       {"deep", std::string(100000, '['), "", "nested too deeply; expected at most 16 levels", false},
       {"deep in a value", replaced("\"seed\":7", "\"seed\":" + std::string(20, '[') + std::string(20, ']')), "",
        "nested too deeply", false},
-      {"not UTF-8", replaced("tiny", "t\xff"), "/name", "not valid JSON", false},
+      {"not UTF-8", replaced("tiny", "t\xff"), "/name", "the text is not valid UTF-8; save", false},
       {"NUL", replaced("tiny", std::string("t\0y", 3)), "/name", "not valid JSON", false},
   };
 }

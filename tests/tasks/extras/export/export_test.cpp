@@ -229,7 +229,8 @@ TEST_F(ExportCommandTest, AllReplicatesGoToADirectory) {
     std::sort(expected.begin(), expected.end());
     EXPECT_EQ(written(), expected);
     EXPECT_EQ(sorted_lines(finished.out), expected);
-    EXPECT_NE(finished.err.find(names_.back() + " failed in jam: no reason; it has no packing"), std::string::npos)
+    EXPECT_NE(finished.err.find(names_.back() + " has no packing, because the replicate failed: no reason"),
+              std::string::npos)
         << finished.err;
   }
 }
@@ -248,10 +249,10 @@ TEST_F(ExportCommandTest, UnknownNamesAreRejected) {
 }
 
 TEST_F(ExportCommandTest, ImpossibleExportsAreRejected) {
-  expect_refused(run(names_.back(), "gsd", "a.gsd"), 2, "failed in jam: no reason; it has no packing");
+  expect_refused(run(names_.back(), "gsd", "a.gsd"), 2, "has no packing, because the replicate failed: no reason");
   expect_refused(run(names_[0], "gsf", "a.gsd"), 2, "--format");
-  expect_refused(run(names_[0], "gsd", "r"), 2, "r: cannot be written");
-  expect_refused(run(names_[0], "gsd", "absent/a.gsd"), 2, "absent/a.gsd: cannot be written");
+  expect_refused(run(names_[0], "gsd", "r"), 2, "r: is a directory; give a file");
+  expect_refused(run(names_[0], "gsd", "absent/a.gsd"), 2, "absent: no such directory; create it");
   expect_refused(run("all", "gsd", "r/manifest.json"), 2, "r/manifest.json is a file; give a directory");
   expect_refused(run(names_[0], "xyz", "a.obj"), 2, "a.obj: this name is reserved");
   std::filesystem::remove(path_file(names_[0]));
