@@ -5,8 +5,8 @@
 namespace isojam {
 
 /// Cohesion: a short-ranged attraction between particles, as it arises from depletion. Each pair has the additional
-/// energy −w V_h. To compute V_h, all faces of both solids are moved outwards by h/2; V_h is the overlap volume of these
-/// grown solids.
+/// energy −w V_h. V_h is the overlap volume of the two grown solids: all faces of a grown solid are moved outwards by
+/// h/2.
 struct Cohesion {
   double range = 0;     ///< h > 0, in units of V_p^(1/3)
   double strength = 0;  ///< w > 0, in units of Y

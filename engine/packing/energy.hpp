@@ -14,8 +14,8 @@
 namespace isojam {
 
 /// Energy of a packing, E = Σ_pairs V²/4 (Smith, Fisher, Alam 2011, E_αβ = Y V²/(4 V_p)), and its derivatives. With
-/// cohesion, E = Σ_pairs V²/4 − w V_h, see Cohesion. Units: energies in Y·V_p, lengths in V_p^(1/3), pressure and stress
-/// in Y.
+/// cohesion, E = Σ_pairs V²/4 − w V_h, see Cohesion. Units: energies in Y·V_p, lengths in V_p^(1/3), pressure and
+/// stress in Y.
 struct Evaluation {
   double energy = 0;       ///< E + load_energy
   double load_energy = 0;  ///< energy of the load on the cell; 0 unless Enthalpy::of() has added it
@@ -24,8 +24,8 @@ struct Evaluation {
   Eigen::VectorXd gradient;
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();  ///< (1/V_cell) dE/dε, lab frame
   double pressure = 0;                               ///< −dE/dV_cell = −tr(stress)/3
-  /// With cohesion, the pressure of the terms V²/4 alone. It is the scale of stresses if the total pressure is 0. nullopt
-  /// without cohesion.
+  /// With cohesion, the pressure of the terms V²/4 alone. It is the scale of stresses if the total pressure is 0.
+  /// nullopt without cohesion.
   std::optional<double> repulsive_pressure = std::nullopt;
   /// mean of the contact force |F| over all touching pairs, without cohesion; 0 without contacts
   double mean_force = 0;
@@ -85,8 +85,8 @@ class PackingEnergy {
   /// With cohesion.
   explicit PackingEnergy(const Cohesion& cohesion) : cohesion_(cohesion) {}
 
-  /// True if the cell of the packing is legal for the particles, see is_legal() in cell/periodic_cell.hpp. With cohesion,
-  /// it must be legal for the grown particles.
+  /// True if the cell of the packing is legal for the particles, or with cohesion for the grown particles, see
+  /// is_legal() in cell/periodic_cell.hpp.
   bool accepts(const Packing& packing);
   /// Computes the energy and its first derivatives. Throws std::invalid_argument if the cell is not legal for the
   /// particles (is_legal() in cell/periodic_cell.hpp). With Precision::double_double, the volume, vector area and

@@ -172,10 +172,11 @@ enum class JamStatus {
   not_called,
   jammed,            ///< states were found down to final_distance, and φ_J was fitted
   goal_not_reached,  ///< φ_J was fitted, but decompression ended before final_distance
-  not_jammed,        ///< the last solution branch has fewer than two states
-  density_limit,     ///< compression reached max_density before the target energy
-  detached,          ///< at zero pressure, cohesion does not hold the particles together: no particles touch
-  step_limit,        ///< max_steps was reached
+  /// the last solution branch has fewer than two states; with CohesionUntil::end, no equilibrium was found
+  not_jammed,
+  density_limit,  ///< compression reached max_density before the target energy
+  detached,       ///< no particles touch at zero pressure, because cohesion is too weak
+  step_limit,     ///< max_steps was reached
   /// the cell became so small or skew that a particle could touch two images of another particle; with cohesion, this
   /// concerns the grown particles
   cell_limit,

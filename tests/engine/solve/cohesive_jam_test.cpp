@@ -1,6 +1,6 @@
 // Properties tested here for octahedra (N = 48), with large steps:
-// - At zero pressure, cohesion and contact forces are in equilibrium. The stress vanishes: in a cubic cell its trace, in
-//   a free cell all components. Particles touch.
+// - At zero pressure, cohesion and contact forces are in equilibrium. The stress vanishes: in a cubic cell its trace,
+//   and in a free cell all components. Particles touch.
 // - If cohesion acts only during compression, the states of the decompression are equilibria without cohesion.
 // - A run that continues from any saved progress gives the same bits.
 // - Particles that attract nothing end the run with the status `detached`, and a cell that is too small for the grown
