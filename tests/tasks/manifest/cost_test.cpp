@@ -24,8 +24,8 @@ const std::string measured_file = ISOJAM_SOURCE_DIR "/tests/tasks/manifest/measu
 double estimated_seconds(const Plan& plan, const Json& measured) {
   for (std::size_t point = 0; point < plan.points(); ++point) {
     const auto spec = plan.at(point, 0);
-    if (to_string(spec.solid) == measured.at("solid") && spec.particles == measured.at("particles") &&
-        spec.parameters == measured.at("parameters"))
+    if (to_string(spec.solid) == measured.at("solid").get<std::string>() &&
+        spec.particles == measured.at("particles").get<int>() && spec.parameters == measured.at("parameters"))
       return measured.at("replicates").get<double>() * estimated_cost(spec, false).cpu_seconds;
   }
   ADD_FAILURE() << "no sweep point is " << measured;
