@@ -29,21 +29,21 @@ inline constexpr std::array enum_names<TroughVerdict>{EnumName{TroughVerdict::no
 ///     P(t) = 2 Σ_{k≥1} (4k²t² − 1) exp(−2k²t²) ≈ 2 (4t² − 1) exp(−2t²)   (K. L. Chung, Ark. Mat. 14, 155 (1976)).
 /// The segment with the largest E/√n has a trough if E exceeds its critical value t √n. Here t satisfies
 /// m·2 (4t² − 1) exp(−2t²) = 0.05, and m is the number of segments with more than t² angles. Smaller segments are not
-/// counted: E is at most n, and n is at most t √n in them. A density without a trough is therefore misjudged in at most
-/// 5 % of all cases.
+/// counted, because they cannot exceed their critical value: if n ≤ t², then E ≤ n ≤ t √n. A density without a trough
+/// is therefore misjudged in at most 5 % of all cases.
 ///
 /// Position. In the segment with the largest E/√n, E is reached at the position s where the density falls below its
 /// mean in the segment. The angles below s and above s are the two populations. The density is estimated with a
-/// Gaussian kernel. Its standard deviation is the larger value of Silverman's rule 0.9 min(sd, IQR/1.34) n^(−1/5) for
-/// the two populations, because the trough consists of their tails. It is at least the width of a bin. The cut-off is
+/// Gaussian kernel. Silverman's rule 0.9 min(sd, IQR/1.34) n^(−1/5) is applied to each of the two populations. The
+/// standard deviation of the kernel is the larger of the two values, but at least the width of a bin. The cut-off is
 /// the minimum between s and the end of the segment.
 ///
 /// Edges. Let the tails of both populations be exponential near the minimum, f = f_min cosh((x − x_min)/a). Each tail
-/// has a·f_min/2 angles beyond the minimum. A cut-off that is moved to where f = (√5/2) f_min crosses the same number
-/// of angles. The edges are where f exceeds the larger of two values. One is (√5/2) f_min. The other is the upper limit
-/// of f_min with its Poisson noise: if the kernel at the minimum contains j angles, the upper limit of this number is j
-/// + 1 + √(j + 3/4) (N. Gehrels, Astrophys. J. 303, 336 (1986)). Half of the difference between the constraint numbers
-/// at both edges is the systematic error of the constraint number.
+/// has a·f_min/2 angles beyond the minimum. If the cut-off is moved from the minimum to a point where f = (√5/2) f_min,
+/// it also crosses a·f_min/2 angles. The edges are where f exceeds the larger of two values. One is (√5/2) f_min.
+/// The other is the upper limit of f_min with its Poisson noise: if the kernel at the minimum contains j angles,
+/// the upper limit of this number is j + 1 + √(j + 3/4) (N. Gehrels, Astrophys. J. 303, 336 (1986)). Half of the
+/// difference between the constraint numbers at both edges is the systematic error of the constraint number.
 struct Trough {
   TroughVerdict verdict = TroughVerdict::not_called;  ///< result of the search
   /// Positions of the minimum and of the edges of the trough, with low ≤ cutoff ≤ high; 0 unless the verdict is found.

@@ -20,8 +20,8 @@ series: tuple[str, ...] = tuple(colours[name] for name in _PALETTE["series"])
 def styles(solids: Iterable[str]) -> dict[str, dict[str, str]]:
     """Colour and marker of each solid, as keyword arguments of matplotlib's plot().
 
-    The five Platonic solids always have the same style. Other solids and mixtures get the styles that are left, in the
-    order of `solids`."""
+    Each of the five Platonic solids has its own style, which is always the same. Other solids and mixtures get the
+    styles that are left, in the order of `solids`."""
     names = list(dict.fromkeys(solids))
     others = [name for name in names if name not in _PALETTE["solids"]]
     free = _PALETTE["others"]
