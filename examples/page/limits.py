@@ -35,11 +35,13 @@ def limit(paths, window, exponent, draws=100, seed=1):
     """Limit a, and exponent x, of a + b Δφ^x, fitted to the points of all replicates with window[0] ≤ Δφ < window[1].
 
     The 95 % intervals come from bootstrap samples of the replicates, with Student's t instead of the normal quantile.
-    The result is None for fewer than three replicates, or fewer than four different values of Δφ. It is also None if a
-    free exponent is at an end of GRID, because the data then do not determine it."""
+    The result is None for fewer than three replicates, or fewer than four different values of Δφ. It is also None if
+    the exponent is free and the data do not determine it: all values are equal, or it is at an end of GRID."""
     inside = [[(x, y) for x, y in path if window[0] <= x < window[1] and y is not None] for path in paths]
     inside = [path for path in inside if path]
     if len(inside) < 3 or len({x for path in inside for x, _ in path}) < 4:
+        return None
+    if exponent is None and len({y for path in inside for _, y in path}) == 1:
         return None
     a, _, x, _ = fitted([point for path in inside for point in path], exponent)
     if exponent is None and x in (GRID[0], GRID[-1]):

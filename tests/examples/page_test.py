@@ -179,6 +179,9 @@ class Limits(unittest.TestCase):
             _, chosen = limits.limit_of_choices(paths, [(0, 0.03), (0, 0.01)])
             self.assertGreater(chosen["systematic"], 1e-3)
         self.assertIsNone(limits.limit(paths[:2], (0, 1), 1.0))
+        equal = [[(x, 0.0025) for x, _ in path] for path in paths]
+        self.assertIsNone(limits.limit(equal, (0, 0.02), None))
+        self.assertAlmostEqual(limits.limit(equal, (0, 0.02), 1.0)["mean"], 0.0025)
         self.assertIsNone(limits.limit(paths, (0, 1e-4), 1.0))
 
     def test_a_free_exponent_at_the_end_of_its_grid_is_not_used(self):
