@@ -186,8 +186,8 @@ TABLES = (
     ("Limits at jamming", f"""Each limit is a in the fit a + b Δφ^x to all packings (classes by fit), in the window Δφ <
      {WINDOWS[0][1]}. The three values in a cell are for x = ½, 1 and free. The next column has the limit for free x. Its
      first error is the 95 % interval by bootstrap. Its second error is half the range over the three forms and the
-     windows Δφ < {', '.join(str(high) for _, high in WINDOWS)}. A dash means that the best x is at an end of its grid
-     (0.2 … 2): the data do not determine it. The limit N → ∞ is linear in 1/N.""", limits),
+     windows Δφ < {', '.join(str(high) for _, high in WINDOWS)}. A dash means that the data do not determine x: the
+     best x is at an end of its grid (0.2 … 2), or all values are equal. The limit N → ∞ is linear in 1/N.""", limits),
     ("Limits at jamming by trough and by gap", """The same for classes by the troughs or the gaps of single states. States
      without a trough or a gap are left out.""", limits_without_fit),
     ("Without near-rattlers", """Near-rattlers are removed until none is left. n is the number of particles that remain.
