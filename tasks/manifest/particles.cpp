@@ -65,16 +65,16 @@ void check_particles(const JsonPlace& root, const Manifest& manifest, const std:
   for (const auto& mixture : manifest.solids) needed.push_back(least_particles(mixture, densities(mixture).first));
   const auto most = std::max_element(needed.begin(), needed.end());
   const auto& neediest = manifest.solids[static_cast<std::size_t>(most - needed.begin())];
-  const auto [density, start] = densities(neediest);
+  const auto [density, start] = densities(neediest);  // clang 14 does not capture them under their own names
   for (const int particles : manifest.particles) {
     if (particles >= *most) continue;
     const double allowed = densest(neediest, particles);
-    root.attempt([&, density = density, start = start] {
+    root.attempt([&, largest = density, initial = start] {
       place_of_particles(root, particles)
           .refuse_with_remedy(
-              fmt::format("{} is too small for {} at max_density {}", particles, to_string(neediest), density),
+              fmt::format("{} is too small for {} at max_density {}", particles, to_string(neediest), largest),
               fmt::format("use at least {} particles{}", *most,
-                          allowed > start ? fmt::format(" or set max_density to {} or less", allowed) : ""));
+                          allowed > initial ? fmt::format(" or set max_density to {} or less", allowed) : ""));
     });
   }
 }
