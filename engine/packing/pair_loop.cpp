@@ -73,9 +73,8 @@ std::size_t not_separated(const PlacedSolids& placed, std::span<const NeighbourP
 Overlap overlap_unseparated(const Packing& packing, Precision precision, const PlacedSolids& placed,
                             const NeighbourPair& pair, const Eigen::Vector3d& r, SeparatingAxis& axis) {
   const PlacedSolid a = placed[pair.a], b = placed[pair.b];
-  const Overlap found = precision == Precision::double_double
-                            ? overlap(a, b, displacement_double_double(packing, pair), axis)
-                            : overlap(a, b, r, axis);
+  Overlap found = precision == Precision::double_double ? overlap(a, b, displacement_double_double(packing, pair), axis)
+                                                        : overlap(a, b, r, axis);
   // If the solids are separate but no face separates them, the product of two edges does. Later evaluations reuse this
   // axis, so one search for it reduces the total time.
   if (!found.touching() && axis.kind == SeparatingAxis::Kind::none) axis = best_axis(a, b, r);
