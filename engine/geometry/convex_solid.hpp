@@ -60,8 +60,10 @@ struct EdgeRecord {
 /// operation computes the union of two Parts.
 template <int words>
 struct alignas(32) Parts {
-  BitSet<words> vertices{}, edges{}, faces{},
-      none{};  ///< sets of vertices, edges and faces; the fourth set is always empty
+  BitSet<words> vertices{};  ///< set of vertices
+  BitSet<words> edges{};     ///< set of edges
+  BitSet<words> faces{};     ///< set of faces
+  BitSet<words> none{};      ///< always empty
 
   /// Union of both sets.
   Parts& operator|=(const Parts& other) {
@@ -75,9 +77,9 @@ struct alignas(32) Parts {
 /// side of such a plane.
 struct SolidArrays {
   static constexpr int max_edges = 192;  ///< largest number of edges
-  /// Largest numbers of vertices and of faces. At least three edges end at every vertex, and every face has at least
-  /// three edges.
-  static constexpr int max_vertices = 2 * max_edges / 3, max_faces = 2 * max_edges / 3;
+  /// largest number of vertices, because at least three edges end at every vertex
+  static constexpr int max_vertices = 2 * max_edges / 3;
+  static constexpr int max_faces = 2 * max_edges / 3;  ///< largest number of faces; every face has at least three edges
   static constexpr int word_edges = 64;  ///< largest number of edges for which a set of edges fits into one 64-bit word
   /// largest number of edges for which the edges of two solids fit into one word
   static constexpr int narrow_edges = 32;

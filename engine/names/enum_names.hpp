@@ -13,8 +13,8 @@ namespace isojam {
 /// An enumerator and its name in files and messages.
 template <class Enum>
 struct EnumName {
-  Enum value;
-  std::string_view name;
+  Enum value;             ///< the enumerator
+  std::string_view name;  ///< its name
 };
 /// Clang before version 17 cannot deduce the template argument of an aggregate. clang-tidy 14 reads these headers, so
 /// it needs this guide.

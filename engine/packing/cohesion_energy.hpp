@@ -15,6 +15,7 @@ namespace isojam {
 /// functions as V, for a packing of grown solids.
 class CohesionEnergy {
  public:
+  /// The terms for this range and strength.
   explicit CohesionEnergy(const Cohesion& cohesion) : cohesion_(cohesion) {}
 
   /// The solids of the particles with all faces moved outwards by h/2.

@@ -25,8 +25,8 @@ struct ContactTerms {
 struct PairTerms {
   /// A touching pair.
   struct Entry {
-    NeighbourPair pair;
-    ContactTerms terms;
+    NeighbourPair pair;  ///< the particles a and b, and the image of b
+    ContactTerms terms;  ///< the contributions of the pair
   };
   std::vector<std::vector<Entry>> blocks;  ///< in the order of the list; the blocks are computed in parallel
 };

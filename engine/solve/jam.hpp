@@ -115,7 +115,7 @@ struct JamOptions {
   /// the result has one state: the equilibrium at zero pressure, whose density takes the place of φ_J. The volume of
   /// the cell relaxes, and with CellShape::free also its shape. Newton's method finds the state.
   std::optional<Cohesion> cohesion = std::nullopt;
-  CohesionUntil cohesion_until = CohesionUntil::decompression;
+  CohesionUntil cohesion_until = CohesionUntil::decompression;  ///< stage until which cohesion acts
   int max_steps = 400;                    ///< largest number of entries of `path`, both stages together
   CellShape cell = CellShape::isotropic;  ///< relaxation of the shape of the cell
   /// Options of the minimisations. In compression, the method is always L-BFGS, and Compression::evaluations replaces
