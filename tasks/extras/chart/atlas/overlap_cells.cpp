@@ -128,7 +128,7 @@ void append_depths(std::vector<AtlasRow>& rows) {
   for (const auto& [name, shape] : shapes) {
     for (const double depth : depths)
       append_cell(
-          name, decade_name(depth), [shape = shape, depth](int, RandomStream&) { return contact_design(shape, depth); },
+          name, decade_name(depth), [kind = shape, depth](int, RandomStream&) { return contact_design(kind, depth); },
           rows);
   }
   for (const double depth : depths)
