@@ -86,8 +86,8 @@ TEST_F(ResourceFailure, ACompleteDirectoryDoesNotChange) {
   for (const auto& [call, error] : refusals()) {
     int ended_early = 0;
     const auto calls = count_of(call);
-    const auto tried = some_of(1, calls, calls > 100 ? 25 : 10, [&, &call = call, &error = error](long k) {
-      const auto order = call + ' ' + std::to_string(k) + ' ' + std::to_string(error);
+    const auto tried = some_of(1, calls, calls > 100 ? 25 : 10, [&, &name = call, &code = error](long k) {
+      const auto order = name + ' ' + std::to_string(k) + ' ' + std::to_string(code);
       const Failing failing(order);
       const auto ended = run();
       expect_ended_well(ended, order);
@@ -104,15 +104,15 @@ TEST_F(ResourceFailure, NoOutcomeIsRecorded) {
     fs::remove_all(here_ / "results");
     const auto calls = count_of(call);
     // The first few hundred allocations are made before the program can print a message.
-    some_of(call == "malloc" ? 1000 : 1, calls, call == "malloc" ? 4 : 1, [&, &call = call, &error = error](long k) {
+    some_of(call == "malloc" ? 1000 : 1, calls, call == "malloc" ? 4 : 1, [&, &name = call, &code = error](long k) {
       fs::remove_all(here_ / "results");
-      const auto order = call + ' ' + std::to_string(k) + "+ " + std::to_string(error);
+      const auto order = name + ' ' + std::to_string(k) + "+ " + std::to_string(code);
       {
         const Failing failing(order);
         expect_ended_well(run(), order);
       }
-      for (const auto& name : names_in(here_ / "results" / "records")) {
-        const auto record = read_sealed((here_ / "results/records" / (name + ".json")).string());
+      for (const auto& replicate : names_in(here_ / "results" / "records")) {
+        const auto record = read_sealed((here_ / "results/records" / (replicate + ".json")).string());
         EXPECT_EQ(record.at("status"), "done") << order << ": " << record.dump(2).substr(0, 1000);
       }
       EXPECT_EQ(run().exit_code, 0);
