@@ -8,8 +8,10 @@ namespace isojam {
 /// energy −w V_h. V_h is the overlap volume of the two grown solids: all faces of a grown solid are moved outwards by
 /// h/2.
 struct Cohesion {
-  double range = 0;     ///< h > 0, in units of V_p^(1/3)
-  double strength = 0;  ///< w > 0, in units of Y
+  double range = 0.1;   ///< h > 0, in units of V_p^(1/3)
+  double strength = 0;  ///< w ≥ 0, in units of Y; 0: no cohesion
+
+  bool acts() const { return strength > 0; }  ///< true if there is cohesion
 
   bool operator==(const Cohesion& other) const = default;
 };

@@ -11,7 +11,6 @@
 #include "engine/solve/rearrangement.hpp"
 
 namespace isojam {
-
 namespace {
 
 /// Largest number of steps in a decompression that may fail or end a solution branch.
@@ -35,7 +34,7 @@ class StrainStep {
  public:
   StrainStep(JamProgress& progress, const JamOptions& options, std::stop_token stop)
       : progress_(progress), result_(progress.result), options_(options), stop_(std::move(stop)) {
-    if (options.cohesion) cohesive_energy_.emplace(*options.cohesion);
+    if (options.cohesion.acts()) cohesive_energy_.emplace(options.cohesion);
   }
 
   void run() {
@@ -43,7 +42,7 @@ class StrainStep {
       result_.status = JamStatus::interrupted;
     } else if (progress_.stage == JamStage::consolidation) {
       consolidate();
-    } else if (options_.cohesion && options_.cohesion_until == CohesionUntil::end) {
+    } else if (ends_at_zero_pressure(options_)) {
       release_pressure();
     } else {
       expand();
@@ -158,7 +157,7 @@ class StrainStep {
       result_.status = JamStatus::detached;
     } else {
       keep(std::move(next));
-      result_.status = JamStatus::jammed;
+      result_.status = JamStatus::zero_pressure;
     }
   }
 
@@ -254,7 +253,7 @@ class StrainStep {
   bool relaxed_below_target(const JamStep& step) const {
     return !options_.compression.target_before_relaxation &&
            step.energy_per_particle < options_.compression.target_energy / 2 &&
-           (is_state(step.summary) || step.summary.reason == StopReason::unjammed || options_.cohesion);
+           (is_state(step.summary) || step.summary.reason == StopReason::unjammed || options_.cohesion.acts());
   }
 
   void forget_states() {
@@ -349,7 +348,19 @@ class StrainStep {
     progress_.step_fraction /= 2;
   }
 
-  void end_expansion(JamStatus status) { result_.status = result_.states.size() >= 2 ? status : JamStatus::not_jammed; }
+  void end_expansion(JamStatus status) {
+    if (static_cast<int>(result_.cycles.size()) < options_.cycles) return end_cycle();
+    result_.status = result_.states.size() >= 2 ? status : JamStatus::not_jammed;
+  }
+
+  /// Keeps the result of a training cycle, and continues with compression from its last state.
+  void end_cycle() {
+    result_.cycles.push_back(cycle_of(result_, options_.decompression.fit_window));
+    forget_states();
+    JamProgress next = begin_jam(std::move(progress_.packing), options_);
+    next.result = std::move(result_);
+    progress_ = std::move(next);
+  }
 
   JamProgress& progress_;
   JamResult& result_;

@@ -110,12 +110,15 @@ struct Decompression {
 struct JamOptions {
   Compression compression;      ///< options of the first stage
   Decompression decompression;  ///< options of the second stage
-  /// Cohesion; nullopt: none. Requires Compression::target_before_relaxation = false. With cohesion, compression ends
+  /// Cohesion, by default none. Requires Compression::target_before_relaxation = false. With cohesion, compression ends
   /// when the terms V²/4 alone reach the target energy after a relaxation without cohesion. With CohesionUntil::end,
   /// the result has one state: the equilibrium at zero pressure, whose density takes the place of φ_J. The volume of
   /// the cell relaxes, and with CellShape::free also its shape. Newton's method finds the state.
-  std::optional<Cohesion> cohesion = std::nullopt;
+  Cohesion cohesion;
   CohesionUntil cohesion_until = CohesionUntil::decompression;  ///< stage until which cohesion acts
+  /// Number of training cycles. In each cycle, the packing is decompressed to final_distance and compressed again, before
+  /// the decompression that gives the result. A cycle whose decompression ends for another reason counts too.
+  int cycles = 0;
   int max_steps = 400;                    ///< largest number of entries of `path`, both stages together
   CellShape cell = CellShape::isotropic;  ///< relaxation of the shape of the cell
   /// Options of the minimisations. In compression, the method is always L-BFGS, and Compression::evaluations replaces
@@ -145,6 +148,9 @@ struct Rearrangement {
   double particles_moved = 0;
 };
 
+/// True if the run ends with the relaxation to zero pressure: cohesion acts, with CohesionUntil::end.
+bool ends_at_zero_pressure(const JamOptions& options);
+
 /// Free strains of the cell in compression, and in decompression with Control::density. There is no load.
 CellControl control_at_density(const JamOptions& options);
 /// Free strains of the cell and load on the cell in decompression with Control::pressure. `pressure` is in units of Y.
@@ -171,6 +177,7 @@ struct JamStep {
 enum class JamStatus {
   not_called,
   jammed,            ///< states were found down to final_distance, and φ_J was fitted
+  zero_pressure,     ///< with CohesionUntil::end: the only state is the equilibrium at zero pressure
   goal_not_reached,  ///< φ_J was fitted, but decompression ended before final_distance
   /// the last solution branch has fewer than two states; with CohesionUntil::end, no equilibrium was found
   not_jammed,
@@ -184,16 +191,20 @@ enum class JamStatus {
   interrupted
 };
 template <>
-inline constexpr std::array enum_names<JamStatus>{EnumName{JamStatus::not_called, "not_called"},
-                                                  EnumName{JamStatus::jammed, "jammed"},
-                                                  EnumName{JamStatus::goal_not_reached, "goal_not_reached"},
-                                                  EnumName{JamStatus::not_jammed, "not_jammed"},
-                                                  EnumName{JamStatus::density_limit, "density_limit"},
-                                                  EnumName{JamStatus::detached, "detached"},
-                                                  EnumName{JamStatus::step_limit, "step_limit"},
-                                                  EnumName{JamStatus::cell_limit, "cell_limit"},
-                                                  EnumName{JamStatus::not_finite, "not_finite"},
-                                                  EnumName{JamStatus::interrupted, "interrupted"}};
+inline constexpr std::array enum_names<JamStatus>{
+    EnumName{JamStatus::not_called, "not_called"},       EnumName{JamStatus::jammed, "jammed"},
+    EnumName{JamStatus::zero_pressure, "zero_pressure"}, EnumName{JamStatus::goal_not_reached, "goal_not_reached"},
+    EnumName{JamStatus::not_jammed, "not_jammed"},       EnumName{JamStatus::density_limit, "density_limit"},
+    EnumName{JamStatus::detached, "detached"},           EnumName{JamStatus::step_limit, "step_limit"},
+    EnumName{JamStatus::cell_limit, "cell_limit"},       EnumName{JamStatus::not_finite, "not_finite"},
+    EnumName{JamStatus::interrupted, "interrupted"}};
+
+/// Result of a training cycle.
+struct Cycle {
+  double energy_per_particle = 0;  ///< E/N of the first state of its decompression; 0 if no state was found
+  std::optional<double> phi_j;     ///< jamming density; nullopt if there are fewer than two states
+  std::optional<Packing> nearest;  ///< last state of the decompression; nullopt if no state was found
+};
 
 /// Result of a run of the protocol.
 struct JamResult {
@@ -205,6 +216,7 @@ struct JamResult {
   std::vector<Packing> states;
   std::vector<int> state_steps;       ///< index in `path` of each element of `states`
   std::optional<JammingPoint> phi_j;  ///< jamming density; nullopt if there are fewer than two states
+  std::vector<Cycle> cycles;          ///< training cycles, in their order
   long evaluations = 0;               ///< number of evaluations of energy and forces in all steps
   PairCounts counts;                  ///< numbers of pairs that were processed in all evaluations
   MinimiseWork work;                  ///< numbers of operations of all minimisations
@@ -212,6 +224,10 @@ struct JamResult {
 
 /// The data of `states` for fit_jamming_point().
 std::vector<EnergyPoint> energy_points(const JamResult& result);
+
+/// The training cycle whose decompression ended with the `states` of this result. φ_J is fitted to the states with
+/// φ − φ_J < fit_window.
+Cycle cycle_of(const JamResult& result, double fit_window);
 
 /// Everything that a run needs to continue after a strain step. It is a value type. A run that continues from it, in
 /// any process, gives the same bits as an uninterrupted run.

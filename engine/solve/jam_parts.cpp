@@ -2,6 +2,10 @@
 
 namespace isojam {
 
+bool ends_at_zero_pressure(const JamOptions& options) {
+  return options.cohesion.acts() && options.cohesion_until == CohesionUntil::end;
+}
+
 CellControl control_at_density(const JamOptions& options) {
   return {options.cell == CellShape::free ? CellFreedom::shape : CellFreedom::fixed, 0};
 }
@@ -17,6 +21,16 @@ std::vector<EnergyPoint> energy_points(const JamResult& result) {
     points.push_back({step.density, step.energy_per_particle, step.pressure / (step.density * step.density)});
   }
   return points;
+}
+
+Cycle cycle_of(const JamResult& result, double fit_window) {
+  Cycle cycle;
+  if (!result.states.empty()) {
+    cycle.energy_per_particle = result.path[static_cast<std::size_t>(result.state_steps.front())].energy_per_particle;
+    cycle.nearest = result.states.back();
+  }
+  if (const auto point = fit_jamming_point(energy_points(result), fit_window)) cycle.phi_j = point->density;
+  return cycle;
 }
 
 }  // namespace isojam

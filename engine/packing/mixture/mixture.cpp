@@ -80,15 +80,17 @@ std::strong_ordering operator<=>(const Mixture& a, const Mixture& b) {
   return a.name_ <=> b.name_;
 }
 
-int least_particles(const Mixture& mixture, double density) {
-  if (mixture.is_one_solid()) return least_particles(*mixture.solid(), density);
+double widest_diameter(const Mixture& mixture, int n, double grown_by) {
+  double widest = 0;
+  for (const Particle& particle : mixture.particles(n))
+    widest = std::max(widest, (particle.scale + grown_by / particle.unit->inradius()) * particle.unit->diameter());
+  return widest;
+}
+
+int least_particles(const Mixture& mixture, double density, double grown_by) {
+  if (mixture.is_one_solid() && grown_by == 0) return least_particles(*mixture.solid(), density);
   // The sizes depend on n only through rounding and through the outermost quantiles.
-  const auto is_legal_for = [&](int n) {
-    double widest = 0;
-    for (const Particle& particle : mixture.particles(n))
-      widest = std::max(widest, particle.scale * particle.unit->diameter());
-    return side_at(n, density) > 2 * widest;
-  };
+  const auto is_legal_for = [&](int n) { return side_at(n, density) > 2 * widest_diameter(mixture, n, grown_by); };
   constexpr int most = 1 << 17;
   int few = 0, enough = 1;
   while (!is_legal_for(enough) && enough < most) few = enough, enough *= 2;

@@ -58,9 +58,14 @@ class Mixture {
 /// The name of the mixture.
 inline std::string_view to_string(const Mixture& mixture) { return mixture.name(); }
 
+/// Largest diameter of n particles of the mixture after all their faces have moved outwards by `grown_by` (V_p^(1/3)).
+/// All solids of the mixture must be able to grow (can_grow() in cohesion.hpp), unless `grown_by` is 0.
+double widest_diameter(const Mixture& mixture, int n, double grown_by = 0);
+
 /// Smallest number n such that a cubic cell with n particles of the mixture is legal at density φ and at all lower
 /// densities. In a legal cell, no particle can touch two images of another one (is_legal() in cell/periodic_cell.hpp).
-/// If the particles are not identical, the result is at most 2^17, even if more particles would be needed.
-int least_particles(const Mixture& mixture, double density);
+/// `grown_by` is as in widest_diameter(). If the particles are not identical, the result is at most 2^17, even if more
+/// particles would be needed.
+int least_particles(const Mixture& mixture, double density, double grown_by = 0);
 
 }  // namespace isojam
