@@ -34,8 +34,11 @@ void report_outcome(const Outcome& outcome, Console& console) {
   if (outcome.failure) {
     console.warn(fmt::format("{} failed: {}", name, failure_text(make_record(outcome))));
   } else {
-    console.detail(fmt::format("{}: phi_j {:.6f}, {} evaluations, {}", name, outcome.jam.phi_j->density,
-                               outcome.jam.evaluations, duration_text(outcome.timing.wall_seconds)));
+    const auto& jam = outcome.jam;
+    const auto density = jam.phi_j ? fmt::format("phi_j {:.6f}", jam.phi_j->density)
+                                   : fmt::format("phi_0 {:.6f}", jam.states.front().density());
+    console.detail(fmt::format("{}: {}, {} evaluations, {}", name, density, jam.evaluations,
+                               duration_text(outcome.timing.wall_seconds)));
   }
   console.tick(name);
 }

@@ -16,24 +16,18 @@ constexpr int evaluations_of_tetrahedra = 2000;
 
 /// Reads the parameters of one solid.
 Json read_values(const JsonPlace& root, const JsonPlace& place) {
-  std::vector<std::string_view> names;
-  for (const auto& field : all_fields()) {
-    if (field.group == Group::protocol) names.push_back(field.name);
-  }
-  place.expect_keys(names);
   Json values = Json::object();
   JamOptions options;
-  for (const auto& field : all_fields()) {
+  read_group_fields(place, Group::protocol, {}, nullptr, [&](const JsonPlace& value, const Field& field) {
     const std::string name(field.name);
-    if (field.group != Group::protocol) continue;
-    place.read_if_any(name, [&](const JsonPlace& value) {
-      if (root.at("sweep").has(name))
-        value.refuse_with_remedy("the parameter is also swept",
-                                 fmt::format("set it either here or in /sweep/{}", name));
-      read_field(value, field, options);
-      values[name] = field_value(field, options);
-    });
-  }
+    if (is_nested(field))
+      value.refuse_with_remedy("the parameter must be the same for all solids",
+                               fmt::format("set it in {}", pointer_of(field)));
+    if (root.at("sweep").has(name))
+      value.refuse_with_remedy("the parameter is also swept", fmt::format("set it either here or in /sweep/{}", name));
+    read_field(value, field, options);
+    values[name] = field_value(field, options);
+  });
   return values;
 }
 

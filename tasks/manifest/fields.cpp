@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <type_traits>
+#include <vector>
 
 #include "tasks/io/options.hpp"
 
@@ -20,6 +22,8 @@ auto& holder(JamOptions& options, Value Struct::*) {
     return options.decompression;
   } else if constexpr (std::is_same_v<Struct, MinimiseOptions>) {
     return options.minimise;
+  } else if constexpr (std::is_same_v<Struct, Cohesion>) {
+    return options.cohesion;
   } else {
     return options;
   }
@@ -28,6 +32,11 @@ auto& holder(JamOptions& options, Value Struct::*) {
 template <auto member>
 constexpr Field field(std::string_view name, Range range, Group group = Group::protocol) {
   return {name, group, [](JamOptions& options) -> Slot { return &(holder(options, member).*member); }, range};
+}
+
+constexpr Field omitted_by_default(Field field) {
+  field.omitted_by_default = true;
+  return field;
 }
 
 using C = Compression;
@@ -53,6 +62,10 @@ constexpr std::array fields{
     field<&C::relaxation>("consolidation", none),
     field<&D::control>("control", none),
     field<&P::cell>("cell", none),
+    omitted_by_default(field<&Cohesion::strength>("cohesion.strength", {0, 1})),
+    omitted_by_default(field<&Cohesion::range>("cohesion.range", positive_to(1))),
+    omitted_by_default(field<&P::cohesion_until>("cohesion.until", none)),
+    omitted_by_default(field<&P::cycles>("cycles", {0, 1000})),
     field<&M::method>("method", none, Group::minimiser),
     field<&M::residual>("residual", positive_to(1), Group::minimiser),
     field<&M::energy_change>("energy_change", {0, 1}, Group::minimiser),
@@ -72,9 +85,33 @@ constexpr std::array renamed{
     Renamed{"passing_evaluations", "consolidation_evaluations"},
 };
 
+/// Name of the object in the group that has the parameter; otherwise the name of the parameter.
+std::string_view key_in_group(const Field& field) { return field.name.substr(0, field.name.find('.')); }
+
+/// Key of a nested parameter in its object.
+std::string key_in_object(const Field& field) { return std::string(field.name.substr(field.name.find('.') + 1)); }
+
+bool is_usual(const Field& field, const JamOptions& options) {
+  return field_value(field, options) == field_value(field, {});
+}
+
+/// True if the parameter is omitted, because it and all others in its object have their default values.
+bool is_omitted(const Field& omitted, const JamOptions& options) {
+  return omitted.omitted_by_default && std::all_of(fields.begin(), fields.end(), [&](const Field& field) {
+           return key_in_group(field) != key_in_group(omitted) || is_usual(field, options);
+         });
+}
+
 }  // namespace
 
 std::span<const Field> all_fields() { return fields; }
+
+bool is_nested(const Field& field) { return field.name.find('.') != std::string_view::npos; }
+
+std::string pointer_of(const Field& field) {
+  const std::string group = "/" + std::string(to_string(field.group)) + "/" + std::string(key_in_group(field));
+  return is_nested(field) ? group + "/" + key_in_object(field) : group;
+}
 
 const Field* find_field(std::string_view name) {
   const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
@@ -102,9 +139,41 @@ Json field_value(const Field& field, JamOptions options) {
 Json group_values(Group group, const JamOptions& options) {
   Json values = Json::object();
   for (const auto& field : fields) {
-    if (field.group == group) values[std::string(field.name)] = field_value(field, options);
+    if (field.group != group || is_omitted(field, options)) continue;
+    Json& value = values[std::string(key_in_group(field))];
+    (is_nested(field) ? value[key_in_object(field)] : value) = field_value(field, options);
   }
   return values;
+}
+
+void erase_field(Json& values, const Field& field) {
+  const std::string key(key_in_group(field));
+  if (!values.contains(key)) return;
+  if (is_nested(field)) values[key].erase(key_in_object(field));
+  if (!is_nested(field) || values[key].empty()) values.erase(key);
+}
+
+void read_group_fields(const JsonPlace& place, Group group, std::span<const std::string_view> others,
+                       std::string (*elsewhere)(std::string_view),
+                       const std::function<void(const JsonPlace&, const Field&)>& read) {
+  std::vector<std::string_view> names(others.begin(), others.end());
+  std::map<std::string, std::vector<std::string_view>> objects;
+  for (const auto& field : fields) {
+    if (field.group != group) continue;
+    auto& members = objects[std::string(key_in_group(field))];
+    if (members.empty()) names.push_back(key_in_group(field));
+    members.push_back(field.name.substr(field.name.find('.') + 1));
+  }
+  place.expect_keys(names, elsewhere);
+  for (const auto& field : fields) {
+    if (field.group != group) continue;
+    const std::string key(key_in_group(field));
+    place.read_if_any(key, [&](const JsonPlace& value) {
+      if (!is_nested(field)) return read(value, field);
+      value.expect_keys(objects.at(key));
+      value.read_if_any(key_in_object(field), [&](const JsonPlace& member) { read(member, field); });
+    });
+  }
 }
 
 }  // namespace isojam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,15 +20,26 @@ inline constexpr std::array enum_names<Group>{EnumName{Group::protocol, "protoco
                                               EnumName{Group::minimiser, "minimiser"}};
 
 /// Pointer to the member of JamOptions that stores the value of a parameter.
-using Slot = std::variant<double*, int*, long*, bool*, Method*, Consolidation*, Control*, CellShape*>;
+using Slot = std::variant<double*, int*, long*, bool*, Method*, Consolidation*, Control*, CellShape*, CohesionUntil*>;
 
 /// A parameter of the engine that a manifest may set or sweep. Its default value is that of the member in JamOptions.
 struct Field {
-  std::string_view name;  ///< name; no parameter of the other group has the same name
+  /// Name; no parameter of the other group has the same name. If it contains a dot, the part before the dot is the name
+  /// of an object in the group, and the part after the dot is the key in this object. The key in `sweep` and `base` is
+  /// the whole name.
+  std::string_view name;
   Group group;
   Slot (*slot)(JamOptions&);
   Range range;  ///< allowed values, if the parameter is a number
+  /// True if group_values() omits the parameter at its default value: an earlier version did not have it. Parameters in
+  /// an object are omitted only together.
+  bool omitted_by_default = false;
 };
+
+/// True if the parameter is in an object of its group.
+bool is_nested(const Field& field);
+/// JSON pointer to a parameter in its group, such as /protocol/cohesion/range.
+std::string pointer_of(const Field& field);
 
 /// All parameters: first those of the protocol, then those of the minimiser. Manifests and records list them in this
 /// order.
@@ -46,7 +58,16 @@ void read_field(const JsonPlace& place, const Field& field, JamOptions& options)
 /// The value of a parameter in `options`.
 Json field_value(const Field& field, JamOptions options);
 
-/// All parameters of a group with their values, as a JSON object.
+/// All parameters of a group with their values, as a JSON object, except those that are omitted by default. Results
+/// without such a parameter therefore have the digests of versions that did not have it.
 Json group_values(Group group, const JamOptions& options);
+/// Removes a parameter from the result of group_values(), and then its object if this is empty.
+void erase_field(Json& values, const Field& field);
+
+/// Calls `read` for each parameter of the group that `place` has, inside attempt(). Reports unknown keys: the keys in
+/// `others` are known too, and `elsewhere` is as in JsonPlace::expect_keys().
+void read_group_fields(const JsonPlace& place, Group group, std::span<const std::string_view> others,
+                       std::string (*elsewhere)(std::string_view),
+                       const std::function<void(const JsonPlace&, const Field&)>& read);
 
 }  // namespace isojam

@@ -18,6 +18,7 @@
 #include "tasks/io/sealed.hpp"
 #include "tasks/manifest/base.hpp"
 #include "tasks/manifest/by_solid.hpp"
+#include "tasks/manifest/cohesion.hpp"
 #include "tasks/manifest/fields.hpp"
 #include "tasks/manifest/particles.hpp"
 #include "tasks/manifest/shear_settings.hpp"
@@ -44,7 +45,7 @@ constexpr std::array<std::string_view, 4> goal_keys{"min", "max", "quantity", "h
 /// Name of the object to which a misplaced parameter belongs.
 std::string home_of_field(std::string_view name) {
   const auto* field = find_field(name);
-  return field ? fmt::format("/{}/{}", to_string(field->group), name) : std::string();
+  return field ? pointer_of(*field) : std::string();
 }
 
 bool is_safe(std::string_view name) {
@@ -163,23 +164,15 @@ Replicates read_replicates(const JsonPlace& place) {
 }
 
 void read_group(const JsonPlace& root, const JsonPlace& place, Group group, Manifest& manifest) {
-  std::vector<std::string_view> names;
-  for (const auto& field : all_fields()) {
-    if (field.group == group) names.push_back(field.name);
-  }
-  if (group == Group::protocol) names.emplace_back("by_solid");
+  std::vector<std::string_view> others;
+  if (group == Group::protocol) others.emplace_back("by_solid");
   refuse_renamed(place);
-  place.expect_keys(names, home_of_field);
-  for (const auto& field : all_fields()) {
-    if (field.group != group) continue;
+  read_group_fields(place, group, others, home_of_field, [&](const JsonPlace& value, const Field& field) {
     const std::string name(field.name);
-    place.read_if_any(name, [&](const JsonPlace& value) {
-      if (root.has("sweep") && root.at("sweep").has(name))
-        value.refuse_with_remedy("the parameter is also swept",
-                                 fmt::format("set it either here or in /sweep/{}", name));
-      read_field(value, field, manifest.protocol);
-    });
-  }
+    if (root.has("sweep") && root.at("sweep").has(name))
+      value.refuse_with_remedy("the parameter is also swept", fmt::format("set it either here or in /sweep/{}", name));
+    read_field(value, field, manifest.protocol);
+  });
 }
 
 std::vector<Flag> read_exclude(const JsonPlace& place) {
@@ -245,6 +238,7 @@ void check_together(const JsonPlace& root, const Manifest& manifest) {
   if (!root.attempt([&] { check_count(root, manifest); })) return;
   const auto sets = option_sets(manifest);
   root.attempt([&] { check_densities(root, manifest, sets); });
+  check_cohesion(root, manifest, sets);
   check_particles(root, manifest, sets);
 }
 
@@ -346,7 +340,9 @@ Json to_json(const Manifest& manifest) {
   json["replicates"] = to_json(manifest.replicates);
   for (const auto group : {Group::protocol, Group::minimiser}) {
     auto values = group_values(group, manifest.protocol);
-    for (const auto& swept : manifest.swept) values.erase(swept.name);
+    for (const auto& swept : manifest.swept) {
+      if (const Field& field = *find_field(swept.name); field.group == group) erase_field(values, field);
+    }
     if (group == Group::protocol && !manifest.by_solid.empty()) values["by_solid"] = manifest.by_solid;
     json[std::string(to_string(group))] = std::move(values);
   }

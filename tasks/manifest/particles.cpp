@@ -20,10 +20,8 @@ JsonPlace place_of_particles(const JsonPlace& root, int particles) {
 }
 
 /// The largest density, rounded down to four decimals, at which a cell with so many particles is large enough.
-double densest(const Mixture& mixture, int particles) {
-  double diameter = 0;
-  for (const auto& each : mixture.particles(particles))
-    diameter = std::max(diameter, each.scale * each.unit->diameter());
+double densest(const Mixture& mixture, int particles, double grown_by) {
+  const double diameter = widest_diameter(mixture, particles, grown_by);
   auto steps = std::floor(particles / cubed(2 * diameter) * 1e4);
   while (steps > 0 && side_at(particles, steps / 1e4) <= 2 * diameter) --steps;
   return steps / 1e4;
@@ -61,18 +59,24 @@ void check_particles(const JsonPlace& root, const Manifest& manifest, const std:
     }
     return largest;
   };
+  double grown_by = 0;
+  for (const auto& set : sets) {
+    if (set.options.cohesion.acts()) grown_by = std::max(grown_by, set.options.cohesion.range / 2);
+  }
   std::vector<int> needed;
-  for (const auto& mixture : manifest.solids) needed.push_back(least_particles(mixture, densities(mixture).first));
+  for (const auto& mixture : manifest.solids)
+    needed.push_back(least_particles(mixture, densities(mixture).first, grown_by));
   const auto most = std::max_element(needed.begin(), needed.end());
   const auto& neediest = manifest.solids[static_cast<std::size_t>(most - needed.begin())];
   const auto [density, start] = densities(neediest);  // clang 14 does not capture them under their own names
   for (const int particles : manifest.particles) {
     if (particles >= *most) continue;
-    const double allowed = densest(neediest, particles);
+    const double allowed = densest(neediest, particles, grown_by);
     root.attempt([&, largest = density, initial = start] {
       place_of_particles(root, particles)
           .refuse_with_remedy(
-              fmt::format("{} is too small for {} at max_density {}", particles, to_string(neediest), largest),
+              fmt::format("{} is too small for {} at max_density {}{}", particles, to_string(neediest), largest,
+                          grown_by > 0 ? fmt::format(" with cohesion of range {}", 2 * grown_by) : ""),
               fmt::format("use at least {} particles{}", *most,
                           allowed > initial ? fmt::format(" or set max_density to {} or less", allowed) : ""));
     });

@@ -51,8 +51,8 @@ class Warnings {
     if (!warned_.emplace(name, solid).second) return;
     const bool swept = std::any_of(manifest_.swept.begin(), manifest_.swept.end(),
                                    [&](const SweptField& field) { return field.name == name; });
-    const auto group = swept ? std::string_view("sweep") : to_string(find_field(name)->group);
-    lines_.push_back(fmt::format("/{}/{}: {}", group, name, text));
+    const auto pointer = swept ? fmt::format("/sweep/{}", name) : pointer_of(*find_field(name));
+    lines_.push_back(fmt::format("{}: {}", pointer, text));
   }
 
   /// Adds a warning about a value that is not a parameter.
@@ -237,6 +237,22 @@ void look_at_effects(const Manifest& manifest, Warnings& warnings) {
   }
 }
 
+/// Warns of settings of cohesion that have no effect.
+void look_at_cohesion(const Manifest& manifest, const std::vector<OptionSet>& sets, Warnings& warnings) {
+  const auto acts = [](const OptionSet& set) { return set.options.cohesion.acts(); };
+  if (std::none_of(sets.begin(), sets.end(), acts)) {
+    for (const auto& field : all_fields()) {
+      if (is_nested(field) && field_value(field, sets.front().options) != field_value(field, {}))
+        warnings.add(field.name, "", "has no effect, because the strength of the cohesion is 0");
+    }
+  } else if (manifest.start && manifest.start->stage == JamStage::expansion) {
+    const auto ends = [](const OptionSet& set) { return ends_at_zero_pressure(set.options); };
+    if (std::none_of(sets.begin(), sets.end(), ends))
+      warnings.add("cohesion.until", "",
+                   "cohesion has no effect, because it acts only during compression, and /start/stage is expansion");
+  }
+}
+
 /// Warns of parameters that a later stage or another parameter makes ineffective.
 void look_at_unused(const Manifest& manifest, const JamOptions& options, Warnings& warnings) {
   const JamOptions usual;
@@ -265,7 +281,9 @@ std::vector<std::string> warnings_of(const Manifest& manifest) {
   Warnings warnings(manifest);
   look_at_goal(manifest.replicates, warnings);
   look_at_effects(manifest, warnings);
-  for (const auto& set : option_sets(manifest)) {
+  const auto sets = option_sets(manifest);
+  look_at_cohesion(manifest, sets, warnings);
+  for (const auto& set : sets) {
     look_at_minimiser(set.options, manifest.exclude, warnings);
     for (const auto& mixture : manifest.solids) {
       const auto options = options_of(manifest, set, mixture);

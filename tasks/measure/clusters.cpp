@@ -55,6 +55,7 @@ Measurement measure_clusters(const JamResult& jam, const MeasureOptions&) {
 
 }  // namespace
 
-const MeasureDefinition measures::clusters{.quantities = quantities, .measure = measure_clusters, .by_default = true};
+const MeasureDefinition measures::clusters{
+    .quantities = quantities, .measure = measure_clusters, .by_default = true, .at_zero_pressure = true};
 
 }  // namespace isojam

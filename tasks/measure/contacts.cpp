@@ -7,6 +7,7 @@
 
 #include "engine/analysis/alignment/random_alignment.hpp"
 #include "engine/analysis/alignment/random_contact.hpp"
+#include "engine/analysis/cohesive_contacts.hpp"
 #include "engine/analysis/order.hpp"
 #include "engine/packing/energy.hpp"
 #include "tasks/measure/flag.hpp"
@@ -53,13 +54,16 @@ constexpr Quantity Z_41 = partial("Z_41", "/contacts/partial/Z_4_1", "Z_{41}", 4
 constexpr Quantity Z_42 = partial("Z_42", "/contacts/partial/Z_4_2", "Z_{42}", 4);
 constexpr Quantity Z_43 = partial("Z_43", "/contacts/partial/Z_4_3", "Z_{43}", 4);
 constexpr Quantity Z_44 = partial("Z_44", "/contacts/partial/Z_4_4", "Z_{44}", 4);
+constexpr QuantityGroup cohesion_group{"cohesion", "Contacts of the packing with cohesion at zero pressure."};
+constexpr Quantity Z_grown = of_cohesion({"Z_grown", "/contacts/Z_grown", cohesion_group, per_particle, "Z_{grown}"});
+constexpr Quantity tension = of_cohesion({"tension", "/contacts/tension", cohesion_group, "1", "P_{tension}"});
 constexpr Quantity mixing = of_mixture({"mixing", "/contacts/mixing", kind_group, "1", "M"}, 2);
 constexpr std::array quantities{
     Z,          Z_ff,     Z_ef,         Z_l,           C,          Z_ff_gap,   Z_ff_trough, Z_ef_trough,
     Z_l_trough, C_trough, C_trough_low, C_trough_high, Z_ff_fixed, Z_ef_fixed, Z_l_fixed,   C_fixed,
     Z_1,        Z_2,      Z_3,          Z_4,           Z_11,       Z_12,       Z_13,        Z_14,
     Z_21,       Z_22,     Z_23,         Z_24,          Z_31,       Z_32,       Z_33,        Z_34,
-    Z_41,       Z_42,     Z_43,         Z_44,          mixing};
+    Z_41,       Z_42,     Z_43,         Z_44,          mixing,     Z_grown,    tension};
 
 Json fit_record(const CdfFit& fit) {
   Json json;
@@ -291,6 +295,18 @@ void put_partial(Json& contacts, const Packing& packing, std::span<const Contact
                "all contacts are between particles of one kind");
 }
 
+/// For a packing with cohesion: the number of grown contacts, and the contacts that are under tension.
+void put_cohesive(Json& state, const Packing& packing, const ClassifiedContacts& classified, const Cohesion& cohesion) {
+  const CohesiveContacts cohesive = cohesive_contacts(packing, classified.contacts, cohesion);
+  put(state, Z_grown, 2 * static_cast<double>(cohesive.grown) / packing.size());
+  const auto pulled = std::count(cohesive.tension.begin(), cohesive.tension.end(), true);
+  put(state, tension, static_cast<double>(pulled) / static_cast<double>(cohesive.tension.size()));
+  Json& list = state["contacts"]["under_tension"] = Json::array();
+  for (std::size_t k = 0; k < cohesive.tension.size(); ++k) {
+    if (cohesive.tension[k]) list.push_back({classified.contacts[k].pair.a, classified.contacts[k].pair.b});
+  }
+}
+
 /// The alignment angles of a state in ascending order, for plots of their distributions. Also states whether there are
 /// more small angles than for random contacts. Two kinds of random contacts are compared: only vertices in faces, and
 /// vertices in faces together with pairs of edges.
@@ -327,16 +343,34 @@ Json angle_record(const Packing& packing, const ClassifiedContacts& classified) 
   return json;
 }
 
-Measurement measure_contacts(const JamResult& jam, const MeasureOptions&) {
+/// Contact numbers of the last state of a training cycle.
+Json cycle_record(const Cycle& cycle, PackingEnergy& energy) {
+  Json json;
+  if (!cycle.nearest) {
+    for (const auto* key : {"Z", "Z_ff"}) put_absent(json, key, "the last state of the cycle is not known");
+    return json;
+  }
+  const auto classified = classified_contacts(*cycle.nearest, energy);
+  put_number(json, "Z", classified.analysis.numbers.Z);
+  const bool known = classified.analysis.face_face.has_cutoff();
+  put_optional(json, "Z_ff", known ? std::optional(classified.analysis.numbers.Z_ff) : std::nullopt,
+               "no face-face cut-off");
+  return json;
+}
+
+Measurement measure_contacts(const JamResult& jam, const MeasureOptions& options) {
   Measurement measurement;
   PackingEnergy energy;
   const auto nearest = nearest_state(jam);
+  for (const Cycle& cycle : jam.cycles)
+    measurement.replicate["contacts"]["cycles"].push_back(cycle_record(cycle, energy));
   for (std::size_t k = 0; k < jam.states.size(); ++k) {
     const auto classified = classified_contacts(jam.states[k], energy);
     measurement.states.push_back(contact_record(classified.analysis));
     put_trough(measurement.states.back(), histogram_of(classified), jam.states[k].size());
     Json& contacts = measurement.states.back()["contacts"];
     put_partial(contacts, jam.states[k], classified.contacts);
+    if (options.cohesion.acts()) put_cohesive(measurement.states.back(), jam.states[k], classified, options.cohesion);
     if (k != nearest) continue;
     measurement.flags = contact_flags(classified.analysis);
     contacts["angles"] = angle_record(jam.states[k], classified);
@@ -348,7 +382,10 @@ constexpr std::array flags{Flag::classes_undecided, Flag::classes_doubtful, Flag
 
 }  // namespace
 
-const MeasureDefinition measures::contacts{
-    .quantities = quantities, .measure = measure_contacts, .flags = flags, .by_default = true};
+const MeasureDefinition measures::contacts{.quantities = quantities,
+                                           .measure = measure_contacts,
+                                           .flags = flags,
+                                           .by_default = true,
+                                           .at_zero_pressure = true};
 
 }  // namespace isojam

@@ -18,6 +18,7 @@ namespace isojam {
 struct MeasureOptions {
   int modes = 50;  ///< number of vibrational modes at each end of the spectrum; the paper averages over 50 modes
   ShearOptions shear;
+  Cohesion cohesion{};  ///< cohesion that acts in the states; by default none
 };
 
 /// Part of a record that one measure writes. If a number is null, another field states the reason.
@@ -41,6 +42,8 @@ struct MeasureDefinition {
   bool by_default = false;           ///< true if the measure is computed for manifests without the key `measure`
   /// true if the measure needs minima; saddles are then relaxed along their negative modes before any measure
   bool needs_minima = false;
+  /// true if the measure can be computed for packings with cohesion at zero pressure
+  bool at_zero_pressure = false;
 };
 
 inline const MeasureDefinition& definition_of(Measure measure) {
@@ -54,8 +57,8 @@ Measurement measure(Measure what, const JamResult& jam, const MeasureOptions& op
 /// Computes a measure for the nearest state alone. The other states of `jam` may have no particles.
 Measurement measure_nearest(Measure what, const JamResult& jam, const MeasureOptions& options);
 
-/// Index in jam.states of the nearest state: the state with the lowest density among the states with positive energy.
-/// States without particles are skipped. nullopt if no state has positive energy.
+/// Index in jam.states of the nearest state: the state with the lowest density among the states with contacts, whose
+/// energy is not 0. States without particles are skipped. nullopt if no state has contacts.
 std::optional<std::size_t> nearest_state(const JamResult& jam);
 
 }  // namespace isojam

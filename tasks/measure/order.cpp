@@ -65,6 +65,6 @@ constexpr std::array flags{Flag::crystalline};
 }  // namespace
 
 const MeasureDefinition measures::order{
-    .quantities = quantities, .measure = measure_order, .flags = flags, .by_default = true};
+    .quantities = quantities, .measure = measure_order, .flags = flags, .by_default = true, .at_zero_pressure = true};
 
 }  // namespace isojam

@@ -13,7 +13,7 @@ namespace isojam {
 namespace {
 
 std::vector<Quantity> in_order_of_tables() {
-  std::vector<Quantity> list{phi_j_quantity};
+  std::vector<Quantity> list{phi_j_quantity, phi_0_quantity};
   for (const Measure measure : all_measures) {
     for (Quantity quantity : definition_of(measure).quantities) {
       quantity.measure = measure;

@@ -42,6 +42,7 @@ struct Quantity {
   bool optional = false;
   /// smallest number of kinds of particles for which a packing has the quantity
   int kinds = 1;
+  bool cohesive = false;  ///< true if only packings with cohesion at zero pressure have the quantity
 };
 
 /// The same quantity, with values that are 0 or 1.
@@ -59,6 +60,12 @@ constexpr Quantity optional_quantity(Quantity quantity) {
 /// The same quantity, for mixtures of at least `kinds` kinds of particles.
 constexpr Quantity of_mixture(Quantity quantity, int kinds) {
   quantity.kinds = kinds;
+  return quantity;
+}
+
+/// The same quantity, which only packings with cohesion at zero pressure have.
+constexpr Quantity of_cohesion(Quantity quantity) {
+  quantity.cohesive = true;
   return quantity;
 }
 
@@ -100,8 +107,14 @@ void put(Json& record, const Quantity& quantity, std::integral auto value) {
   place.object[place.key] = value;
 }
 
+/// True if tables list the quantity also if it has no value in any row.
+inline bool is_always_listed(const Quantity& quantity) { return quantity.group == main_group && !quantity.cohesive; }
+
 /// The jamming density φ_J of a replicate.
 inline constexpr Quantity phi_j_quantity{"phi_j", "/phi_j/phi_j", main_group, "1", "\\phi_J", Quantity::Of::replicate};
+/// The density φ_0 at zero pressure of a replicate with cohesion.
+inline constexpr Quantity phi_0_quantity =
+    of_cohesion({"phi_0", "/phi_0", main_group, "1", "\\phi_0", Quantity::Of::replicate});
 
 /// Values of Δφ, descending, for which tables give the quantities of states. They are interpolated linearly in ln Δφ
 /// between two states of a replicate.

@@ -66,6 +66,14 @@ JamStep read_step(const JsonPlace& place) {
   return step;
 }
 
+Json cycle_json(const Cycle& cycle) {
+  Json json;
+  json["energy_per_particle"] = cycle.energy_per_particle;
+  if (cycle.phi_j) json["phi_j"] = *cycle.phi_j;
+  if (cycle.nearest) json["nearest"] = to_json(*cycle.nearest);
+  return json;
+}
+
 bool is_finite(const JamStep& step) {
   const auto& summary = step.summary;
   return std::isfinite(step.density) && std::isfinite(step.energy_per_particle) && std::isfinite(step.pressure) &&
@@ -92,6 +100,14 @@ void read_states(const JsonPlace& root, const ReplicateSpec& spec, JamResult& re
   }
 }
 
+Cycle read_cycle(const JsonPlace& place, const ReplicateSpec& spec) {
+  Cycle cycle;
+  cycle.energy_per_particle = place.at("energy_per_particle").number(any_number);
+  if (place.has("phi_j")) cycle.phi_j = place.at("phi_j").number(any_number);
+  if (place.has("nearest")) cycle.nearest = read_own_packing(place.at("nearest"), spec);
+  return cycle;
+}
+
 JamResult read_result(const JsonPlace& root, const ReplicateSpec& spec) {
   JamResult result;
   result.status = root.at("status").choice<JamStatus>();
@@ -103,6 +119,11 @@ JamResult read_result(const JsonPlace& root, const ReplicateSpec& spec) {
   if (steps == 0) path.refuse("the list is empty", "one or more steps");
   for (std::size_t k = 0; k < steps; ++k) result.path.push_back(read_step(path.at(k)));
   read_states(root, spec, result);
+  if (root.has("cycles")) {
+    const auto cycles = root.at("cycles");
+    const auto count = cycles.expect_list("a list of cycles");
+    for (std::size_t k = 0; k < count; ++k) result.cycles.push_back(read_cycle(cycles.at(k), spec));
+  }
   if (result.status != JamStatus::not_called)
     result.phi_j = fit_jamming_point(energy_points(result), spec.options.decompression.fit_window);
   return result;
@@ -156,6 +177,7 @@ std::optional<Json> make_checkpoint(const ReplicateSpec& spec, const Checkpoint&
   json["state_steps"] = result.state_steps;
   json["states"] = Json::array();
   for (const auto& state : result.states) json["states"].push_back(to_json(state));
+  for (const auto& cycle : result.cycles) json["cycles"].push_back(cycle_json(cycle));
   json["packing"] = to_json(progress.packing);
   return json;
 }

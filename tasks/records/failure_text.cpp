@@ -52,6 +52,8 @@ std::optional<Explanation> explanation_of(JamStatus status, const Json& record) 
                          std::string(cell_limit_remedy)};
     case JamStatus::not_jammed:
       return Explanation{"decompression found fewer than two states", remedy_of_decompression(record)};
+    case JamStatus::detached:
+      return Explanation{"no particles touch at zero pressure", "increase the strength or the range of the cohesion"};
     case JamStatus::not_finite: return Explanation{fmt::format("an energy or a force in {} is not finite", stage), ""};
     default: return std::nullopt;
   }

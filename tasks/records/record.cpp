@@ -16,6 +16,7 @@ namespace isojam {
 namespace {
 
 constexpr std::string_view no_result = "the replicate failed";
+constexpr std::string_view at_zero_pressure = "the packing is at zero pressure; phi_0 takes the place of phi_j";
 
 void put_distance(Json& json, double density, const JamResult& jam) {
   if (jam.phi_j) {
@@ -55,6 +56,16 @@ Json state_record(const Outcome& outcome, std::size_t index) {
   return json;
 }
 
+/// The training cycles. Their contact numbers are in the part of the measure `contacts`.
+void put_cycles(Json& record, const std::vector<Cycle>& cycles) {
+  for (const Cycle& cycle : cycles) {
+    Json json;
+    put_number(json, "energy_per_particle", cycle.energy_per_particle);
+    put_optional(json, "phi_j", cycle.phi_j, "fewer than two states");
+    record["cycles"].push_back(std::move(json));
+  }
+}
+
 double worst_residual(const JamResult& jam) {
   double worst = 0;
   for (const int state : jam.phi_j->states) {
@@ -66,6 +77,17 @@ double worst_residual(const JamResult& jam) {
 }
 
 void put_jamming_point(Json& record, const JamResult& jam) {
+  if (jam.status == JamStatus::zero_pressure) {
+    const std::size_t state = *nearest_state(jam);
+    put(record, phi_0_quantity, jam.states[state].density());
+    put(record, phi_j_quantity, std::nullopt, at_zero_pressure);
+    Json& json = place_of(record, phi_j_quantity).object;
+    for (const auto* key : {"standard_error", "ci95_half_width", "single_state", "exponent"})
+      put_absent(json, key, at_zero_pressure);
+    put_number(json, "residual", jam.path[static_cast<std::size_t>(jam.state_steps[state])].summary.residual);
+    json["states"] = Json::array();
+    return;
+  }
   const auto& point = *jam.phi_j;
   put(record, phi_j_quantity, point.density);
   Json& json = place_of(record, phi_j_quantity).object;
@@ -92,7 +114,7 @@ RecordIdentity identity(const Outcome& outcome, const std::string& result_digest
 void put_nothing(Json& record, const std::vector<Measure>& measures) {
   std::vector<std::string> keys{"phi_j", "nearest"};
   for (const auto& quantity : all_quantities()) {
-    if (quantity.of != Quantity::Of::replicate) continue;
+    if (quantity.of != Quantity::Of::replicate || quantity.cohesive) continue;
     const auto& measure = quantity.measure;
     if (measure && std::find(measures.begin(), measures.end(), *measure) == measures.end()) continue;
     keys.emplace_back(quantity.pointer.substr(1, quantity.pointer.find('/', 1) - 1));
@@ -161,6 +183,7 @@ Json make_record(const Outcome& outcome) {
       if (measurement.nearest_only) json["nearest_only"].push_back(to_string(what));
     }
     put_rearrangements(json, jam.path);
+    put_cycles(json, jam.cycles);
   }
   json["states"] = Json::array();
   for (std::size_t i = 0; i < jam.states.size(); ++i) json["states"].push_back(state_record(outcome, i));

@@ -40,13 +40,20 @@ std::string_view stage_text(std::string_view stage) {
   return stage == to_string(JamStage::consolidation) ? "compression" : "decompression";
 }
 
+MeasureOptions measure_options(const ReplicateSpec& spec) {
+  auto options = spec.measuring;
+  if (ends_at_zero_pressure(spec.options)) options.cohesion = spec.options.cohesion;
+  return options;
+}
+
 Stages engine_stages() {
   return {begin, run_jam, [](const ReplicateSpec& spec, Measure what, const JamResult& jam) {
-            return measure(what, jam, spec.measuring);
+            return measure(what, jam, measure_options(spec));
           }};
 }
 
 std::optional<Failure> failure_of(const JamResult& jam) {
+  if (jam.status == JamStatus::zero_pressure) return std::nullopt;
   if (jam.status == JamStatus::jammed || jam.status == JamStatus::goal_not_reached) {
     if (jam.phi_j && nearest_state(jam)) return std::nullopt;
     return Failure{"jam", "too few states of positive energy to find the jamming point"};
@@ -69,6 +76,7 @@ namespace {
 /// True if fewer than two states are in the fit window. Then φ_J was fitted to states outside of it.
 bool outside_fit_window(const Outcome& outcome) {
   const auto& jam = outcome.jam;
+  if (!jam.phi_j) return false;
   const auto& used = jam.phi_j->states;
   const auto farthest = jam.state_steps[static_cast<std::size_t>(used.back())];
   return used.size() == 2 && jam.path[static_cast<std::size_t>(farthest)].density - jam.phi_j->density >=

@@ -57,6 +57,9 @@ struct Stages {
   std::function<Measurement(const ReplicateSpec&, Measure, const JamResult&)> measure;
 };
 
+/// Options of the measures of a replicate, with the cohesion that acts in its states.
+MeasureOptions measure_options(const ReplicateSpec& spec);
+
 /// The stages that call the engine and have no side effects.
 Stages engine_stages();
 

@@ -74,8 +74,20 @@ JamResult restored_jam(const JsonPlace& record, std::vector<Packing> states, con
     if (packing.size() != spec.particles || !are_particles_of(packing, spec.solid))
       record.at("states").refuse("the path contains packings of other particles");
   }
-  result.status = has_flag(record, Flag::goal_not_reached) ? JamStatus::goal_not_reached : JamStatus::jammed;
+  result.status = ends_at_zero_pressure(spec.options)        ? JamStatus::zero_pressure
+                  : has_flag(record, Flag::goal_not_reached) ? JamStatus::goal_not_reached
+                                                             : JamStatus::jammed;
   result.phi_j = fit_jamming_point(energy_points(result), spec.options.decompression.fit_window);
+  if (record.has("cycles")) {
+    const auto cycles = record.at("cycles");
+    const auto count = cycles.expect_list("a list of cycles");
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto cycle = cycles.at(k);
+      const bool has_point = !cycle.at("phi_j").value().is_null();
+      result.cycles.push_back({read_number(cycle, "energy_per_particle"),
+                               has_point ? std::optional(read_number(cycle, "phi_j")) : std::nullopt, std::nullopt});
+    }
+  }
   result.evaluations = read_count(record, "evaluations");
   result.counts = read_counts(record.at("pairs"));
   result.work = read_work(record.at("work"));

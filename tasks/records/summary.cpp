@@ -28,7 +28,8 @@ std::optional<double> value_below(const JsonPlace& place, std::string_view point
 }
 
 /// Value of a quantity. nullopt if its measure was not requested (the first key of the pointer is missing), if the
-/// quantity is optional, or if the packing does not have so many kinds of particles. If another key is missing, throws.
+/// quantity is optional, or if the packing does not have so many kinds of particles or no cohesion. If another key is
+/// missing, throws.
 std::optional<double> quantity_value(const JsonPlace& place, const Quantity& quantity) {
   // Tables read millions of values. Only an unexpected value needs a JsonPlace, which contains texts for messages.
   const Json* value = &place.value();
@@ -36,7 +37,7 @@ std::optional<double> quantity_value(const JsonPlace& place, const Quantity& qua
     const auto end = std::min(rest.find('/', 1), rest.size());
     const auto found = value->is_object() ? value->find(rest.substr(1, end - 1)) : value->end();
     if (found == value->end()) {
-      const bool can_be_missing = quantity.kinds > 1 || quantity.optional;
+      const bool can_be_missing = quantity.kinds > 1 || quantity.optional || quantity.cohesive;
       if (rest.size() == quantity.pointer.size() || can_be_missing) return std::nullopt;
       return value_below(place, quantity.pointer);
     }

@@ -159,8 +159,8 @@ Stages Adder::stages() {
     const auto& held = *records_.at(replicate_name(spec));
     const bool recorded = has(held.summary.measures, what);
     if (recorded && !has_moved(jam, held)) return recorded_measurement(what, held.record);
-    if (!lacks_states(jam)) return measure(what, jam, spec.measuring);
-    auto measured = measure_nearest(what, jam, spec.measuring);
+    if (!lacks_states(jam)) return measure(what, jam, measure_options(spec));
+    auto measured = measure_nearest(what, jam, measure_options(spec));
     return recorded ? with_nearest(recorded_measurement(what, held.record), measured, jam) : measured;
   };
   return stages;

@@ -63,7 +63,7 @@ void append(Cells& cells, const Cells& more) { cells.insert(cells.end(), more.be
 std::vector<std::size_t> quantities_in(const std::vector<TableLine>& lines, bool first_group) {
   std::vector<std::size_t> list;
   for (std::size_t i = 0; i < all_quantities().size(); ++i) {
-    if ((first_group && all_quantities()[i].group == main_group) ||
+    if ((first_group && is_always_listed(all_quantities()[i])) ||
         std::any_of(lines.begin(), lines.end(), [&](const TableLine& line) { return (*line.estimates)[i].n > 0; }))
       list.push_back(i);
   }

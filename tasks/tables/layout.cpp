@@ -34,7 +34,7 @@ std::vector<ColumnGroup> groups_in(const std::vector<TableLine>& lines, View vie
     if (view == View::series && all[i].of == Quantity::Of::replicate) continue;
     const bool any =
         std::any_of(lines.begin(), lines.end(), [&](const TableLine& line) { return (*line.estimates)[i].n > 0; });
-    if (!any && all[i].group != main_group) continue;
+    if (!any && !is_always_listed(all[i])) continue;
     if (groups.empty() || groups.back().is != all[i].group) groups.push_back({all[i].group, {}});
     groups.back().quantities.push_back(i);
   }

@@ -34,7 +34,7 @@ Json to_json(const Estimate& estimate) {
 void put_estimates(Json& json, const Estimates& estimates) {
   const auto quantities = all_quantities();
   for (std::size_t i = 0; i < quantities.size(); ++i) {
-    if (quantities[i].group != main_group && estimates[i].n == 0) continue;
+    if (!is_always_listed(quantities[i]) && estimates[i].n == 0) continue;
     json[std::string(quantities[i].name)] = to_json(estimates[i]);
   }
 }

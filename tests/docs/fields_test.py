@@ -64,7 +64,8 @@ def wrong_defaults(page, schema):
         while "$ref" in field:
             field = schema["definitions"][field["$ref"].rsplit("/", 1)[-1]]
         default = f"`{json.dumps(field['default'])}`" if "default" in field else None
-        found = any(default in cells for cells in rows.get(name, []))
+        # The row of a key such as cohesion.range is in the table of the object `cohesion`.
+        found = any(default in cells for cells in rows.get(name.rpartition(".")[2], []))
         if name not in page or default and not found:
             wrong.append(name)
     return sorted(set(wrong))

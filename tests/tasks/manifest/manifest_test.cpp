@@ -127,7 +127,7 @@ TEST(Manifest, EveryFieldCanBeSetAndSwept) {
     const std::string name(field.name);
     const auto value = another_value(field);
     auto fixed = good_manifest();
-    fixed[std::string(to_string(field.group))][name] = value;
+    fixed[Json::json_pointer(pointer_of(field))] = value;
     EXPECT_EQ(field_value(field, parse(fixed).protocol), value) << name;
 
     auto swept = good_manifest();
@@ -174,8 +174,7 @@ TEST(Manifest, DigestChangesWithEveryParameterButReplicates) {
                                                     {"/sweep/particles", {65}},
                                                     {"/measure", Json::array()}};
   for (const auto& field : all_fields()) {
-    const auto at = fmt::format("/{}/{}", to_string(field.group), field.name);
-    changes.emplace_back(at, another_value(field));
+    changes.emplace_back(pointer_of(field), another_value(field));
   }
   for (const auto& [pointer, value] : changes) {
     auto changed = good_manifest();

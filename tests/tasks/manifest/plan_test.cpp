@@ -146,6 +146,7 @@ Json another_value(const Field& field) {
   if (usual == "relaxed") return "hasty";
   if (usual == "density") return "pressure";
   if (usual == "isotropic") return "free";
+  if (usual == "decompression") return "end";
   if (usual.is_string()) return "lbfgs";
   if (usual.is_number_integer()) return usual.get<long>() + 1;
   return usual.get<double>() / 2 + 1e-9;

@@ -67,6 +67,13 @@ TEST(Checkpoint, TheRestOfARunInAVariableCellHasTheSameBits) {
   expect_the_same_bits(test::make_plan(parse_manifest(manifest.dump(), "tiny"))[2]);
 }
 
+TEST(Checkpoint, TheRestOfARunWithCyclesHasTheSameBits) {
+  auto manifest = test::tiny_manifest();
+  manifest["measure"] = {"contacts"};
+  manifest["protocol"]["cycles"] = 1;
+  expect_the_same_bits(test::make_plan(parse_manifest(manifest.dump(), "tiny"))[0]);
+}
+
 TEST(Checkpoint, TheRestOfARunHasTheSameBits) {
   EXPECT_EQ(expect_the_same_bits(tiny_spec()), 0);
   EXPECT_GT(expect_the_same_bits(tiny_spec(1, "newton", 20)), 1) << "20 evaluations are enough for every step";

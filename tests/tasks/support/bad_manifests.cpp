@@ -115,6 +115,35 @@ std::vector<BadManifest> malformed_shear() {
   };
 }
 
+/// Invalid settings of cohesion.
+std::vector<BadManifest> wrong_cohesion() {
+  const auto cohesive = [](const std::string& at, const Json& value) {
+    auto manifest = good_manifest();
+    manifest["protocol"]["cohesion"] = {{"strength", 1e-4}, {"until", "end"}};
+    manifest[Pointer(at)] = value;
+    return manifest.dump();
+  };
+  const Json hexagonal{{"solid", {"prism6"}}, {"particles", {200}}};
+  const Json goal{{"min", 8}, {"max", 9}, {"quantity", "phi_j"}, {"half_width", 1}};
+  return {
+      set("cohesion that is no object", "/protocol/cohesion", 1e-4, "an object"),
+      set("misspelt key of cohesion", "/protocol/cohesion/strenght", 1e-4, "did you mean \"strength\"?"),
+      set("negative cohesion", "/protocol/cohesion/strength", -1e-4, "a number in [0, 1]"),
+      set("cohesion without a range", "/protocol/cohesion/range", 0, "a number in (0, 1]"),
+      set("cohesion until nothing", "/protocol/cohesion/until", "jamming", "\"decompression\", \"end\""),
+      set("swept key of cohesion without its object", "/sweep/strength", {1e-4}, "unknown key"),
+      {"cohesion of solids that cannot grow", cohesive("/sweep", hexagonal), "/sweep/solid",
+       "cohesion is not possible for prism6", false},
+      {"cohesion before relaxation", cohesive("/protocol/target_before_relaxation", true), "",
+       "set target_before_relaxation to false", false},
+      {"cohesion and modes", cohesive("/measure", {"contacts", "modes"}), "/measure",
+       "the measure modes is not possible at zero pressure", false},
+      {"cohesion and a goal of phi_j", cohesive("/replicates", goal), "/replicates/quantity", "use \"phi_0\"", false},
+      {"cohesion in a small cell", cohesive("/protocol/cohesion/range", 0.9), "/sweep/particles/0",
+       "with cohesion of range 0.9; use at least", false},
+  };
+}
+
 /// Values in the sweep that a schema rejects.
 std::vector<BadManifest> malformed_sweep() {
   return {
@@ -226,7 +255,8 @@ Json good_manifest() {
 
 std::vector<BadManifest> bad_manifests() {
   auto all = malformed();
-  for (const auto& more : {malformed_base(), malformed_shear(), malformed_sweep(), inconsistent(), unreadable()})
+  for (const auto& more :
+       {malformed_base(), malformed_shear(), wrong_cohesion(), malformed_sweep(), inconsistent(), unreadable()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

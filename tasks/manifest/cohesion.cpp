@@ -1,0 +1,72 @@
+#include "tasks/manifest/cohesion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/packing/cohesion.hpp"
+
+namespace isojam {
+namespace {
+
+void refuse_other_solids(const JsonPlace& root, const Manifest& manifest) {
+  const auto list = root.at("sweep").at("solid");
+  for (std::size_t k = 0; k < manifest.solids.size(); ++k) {
+    for (const auto& kind : manifest.solids[k].kinds()) {
+      if (can_grow(*kind.solid)) continue;
+      list.attempt([&] {
+        list.refuse_with_remedy(
+            fmt::format("cohesion is not possible for {}: its faces have different distances from the centroid",
+                        to_string(kind.solid)),
+            "remove the solid or the cohesion");
+      });
+    }
+  }
+}
+
+/// Measures that need repulsive forces or a jamming density.
+void refuse_measures(const JsonPlace& root, const Manifest& manifest) {
+  for (const auto what : manifest.measures) {
+    if (definition_of(what).at_zero_pressure) continue;
+    root.attempt([&] {
+      root.at("measure").refuse_with_remedy(
+          fmt::format("the measure {} is not possible at zero pressure: it needs repulsive forces or a jamming density",
+                      to_string(what)),
+          "remove the measure, or set /protocol/cohesion/until to \"decompression\"");
+    });
+  }
+}
+
+void refuse_goal(const JsonPlace& root, const Manifest& manifest) {
+  if (!manifest.replicates.goal || manifest.replicates.goal->quantity != phi_j_quantity.name) return;
+  root.at("replicates")
+      .at("quantity")
+      .refuse_with_remedy("packings at zero pressure have no phi_j", fmt::format("use \"{}\"", phi_0_quantity.name));
+}
+
+}  // namespace
+
+void check_cohesion(const JsonPlace& root, const Manifest& manifest, const std::vector<OptionSet>& sets) {
+  const auto any = [&](auto is_true) {
+    return std::any_of(sets.begin(), sets.end(), [&](const OptionSet& set) { return is_true(set.options); });
+  };
+  if (!any([](const JamOptions& options) { return options.cohesion.acts(); })) return;
+  refuse_other_solids(root, manifest);
+  root.attempt([&] {
+    if (any([](const JamOptions& options) {
+          return options.cohesion.acts() && options.compression.target_before_relaxation;
+        }))
+      root.refuse_with_remedy("cohesion is not possible with target_before_relaxation",
+                              "set target_before_relaxation to false");
+  });
+  if (!any(ends_at_zero_pressure)) return;
+  root.attempt([&] {
+    if (any([](const JamOptions& options) { return options.cycles > 0; }))
+      root.refuse_with_remedy("cycles are not possible at zero pressure, where there is no decompression",
+                              "remove the cycles, or set /protocol/cohesion/until to \"decompression\"");
+  });
+  refuse_measures(root, manifest);
+  root.attempt([&] { refuse_goal(root, manifest); });
+}
+
+}  // namespace isojam
