@@ -1,6 +1,7 @@
 """Tests the palette that the pages, the Python module and the examples share.
 
 - The module has the colours of the pages. Every solid has another colour and another marker.
+- The colours of the Platonic solids are Okabe and Ito's.
 - Styles are keyword arguments of matplotlib. Solids that are not in the palette get the styles that are left.
 - No script of a page and no example defines a colour of the palette again."""
 
@@ -12,6 +13,9 @@ import support
 from support import Case, isojam
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+#: From the page of M. Okabe and K. Ito, Color Universal Design (2008).
+OKABE_ITO = {"black": "#000000", "orange": "#e69f00", "sky": "#56b4e9", "green": "#009e73", "yellow": "#f0e442",
+             "blue": "#0072b2", "vermilion": "#d55e00", "purple": "#cc79a7"}
 PALETTE = json.loads((SOURCE / "tasks/extras/page/palette.json").read_text())
 
 
@@ -22,6 +26,10 @@ class Palette(Case):
         for name, solid in PALETTE["solids"].items():
             self.assertEqual(styles[name], {"color": PALETTE["colours"][solid["colour"]], "marker": solid["marker"]})
         self.assertEqual(len(isojam.palette.series), len(set(isojam.palette.series)))
+
+    def test_the_platonic_solids_have_colours_of_okabe_and_ito(self):
+        self.assertEqual({name: PALETTE["colours"][name] for name in OKABE_ITO}, OKABE_ITO)
+        self.assertLessEqual({solid["colour"] for solid in PALETTE["solids"].values()}, set(OKABE_ITO))
 
     def test_solids_differ_in_colour_symbol_and_marker(self):
         everything = [*PALETTE["solids"].values(), *PALETTE["others"]]

@@ -11,6 +11,7 @@
 //    neighbour shells. It is 1 for aligned particles, and 0 within statistical errors for random ones.
 // 7. The limits of S and of the local order separate independent orientations from crystals whose particles are rotated
 //    at random by about five degrees. A polycrystal is found by its local order alone, which agrees with a direct mean.
+//    They also separate the disordered jammed packings with which they were chosen from the ordered ones.
 // 8. The results for N = 1, 2, 3 and for no contacts are defined. Invalid input is rejected.
 
 #include "engine/analysis/orientation_order.hpp"
@@ -282,6 +283,29 @@ TEST(Order, LocalOrderUsesOnlyTheOwnContacts) {
   EXPECT_NEAR(local[1].value(), of({1, 0, 0}, {0, 1, 0}), 1e-14);
   EXPECT_NEAR(local[2].value(), of({0, 1, 0}, {1, 1, 0}), 1e-14);
   EXPECT_FALSE(local[3]);
+}
+
+Order measured(unsigned rank, double order, double local, int particles = 100) {
+  Order result;
+  result.rank = rank;
+  result.S = order;
+  result.random_S = 1 / std::sqrt(particles);
+  result.local_S = local;
+  return result;
+}
+
+TEST(Order, LimitsSeparateTheMeasuredPackings) {
+  // The numbers are those of docs/results.md. Between 0.5 and 0.53, only cubes are disordered.
+  EXPECT_FALSE(is_aligned(measured(4, 0.53, 0.50))) << "disordered cubes";
+  EXPECT_TRUE(is_aligned(measured(4, 0.68, 0.50))) << "S of ordered cubes";
+  EXPECT_TRUE(is_aligned(measured(4, 0.53, 0.62))) << "local S of ordered cubes";
+  EXPECT_FALSE(is_aligned(measured(6, 0.41, 0.38))) << "disordered dodecahedra, and local S of crystals of icosahedra";
+  for (const unsigned rank : {2U, 3U, 6U}) {
+    EXPECT_TRUE(is_aligned(measured(rank, 0.52, 0))) << rank;
+    EXPECT_TRUE(is_aligned(measured(rank, 0, 0.52))) << rank;
+  }
+  EXPECT_FALSE(is_aligned(measured(6, 0.58, 0, 36))) << "3.5/√36 is larger";
+  EXPECT_TRUE(is_aligned(measured(6, 0.59, 0, 36)));
 }
 
 TEST(OrientationCorrelation, IsTheMeanOverPairs) {

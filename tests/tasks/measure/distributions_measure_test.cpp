@@ -3,6 +3,7 @@
 //   of a kind. A packing of one kind has none.
 // - The mixing is 0 if kinds are apart, and 1 on average if they are distributed at random.
 // - The histogram of angles has the angles of the record. Angles of zero are below the first bin.
+// - Forces in the record are in units of their mean. Each force is counted in its bin, or below the first bin.
 // - g(r) in the record is that of the engine, with one more edge than values.
 
 #include <fmt/format.h>
@@ -10,8 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
+#include "engine/analysis/contact_force.hpp"
 #include "engine/analysis/pair_distribution.hpp"
 #include "tasks/measure/measure.hpp"
 #include "tasks/measure/shared_parts.hpp"
@@ -98,6 +101,34 @@ TEST(DistributionsMeasure, HistogramCountsSmallAndLargeValues) {
   for (const double angle : {0.0, 1e-5, 1.0, 5.0}) zeros.add(angle);
   EXPECT_EQ(zeros.record().at("below"), 2);
   EXPECT_EQ(zeros.record().at("counts").back(), 2);
+}
+
+TEST(DistributionsMeasure, ForcesAreInUnitsOfTheirMean) {
+  const auto packing = packing_of(std::vector<int>(60, 0));
+  const auto json = measure(Measure::gaps, result_of(packing)).states.at(0).at("gaps");
+  std::vector<double> forces;
+  for (const auto& force : contact_forces(packing, PackingEnergy().contacts(packing)))
+    forces.push_back(force.force_a.norm());
+  ASSERT_GT(forces.size(), 100U);
+  const auto count = static_cast<double>(forces.size());
+  const double mean = std::accumulate(forces.begin(), forces.end(), 0.0) / count;
+  const auto edges = json.at("log10_force").get<std::vector<double>>();
+  std::vector<long> expected(edges.size() - 1, 0), counted(expected);
+  long expected_below = 0, below = 0, weak = 0;
+  for (const double force : forces) {
+    const auto above = std::upper_bound(edges.begin(), edges.end(), std::log10(force / mean)) - edges.begin();
+    ++(above == 0 ? expected_below : expected.at(static_cast<std::size_t>(above - 1)));
+    weak += force < mean / 10;
+  }
+  for (const auto* key : {"face_face", "edge_face", "lower_order"}) {
+    const auto counts = json.at(key).at("counts").get<std::vector<long>>();
+    for (std::size_t k = 0; k < counts.size(); ++k) counted.at(k) += counts[k];
+    below += json.at(key).at("below").get<long>();
+  }
+  EXPECT_EQ(counted, expected);
+  EXPECT_EQ(below, expected_below);
+  EXPECT_GT(weak, 0);
+  EXPECT_DOUBLE_EQ(json.at("weak_forces").get<double>(), static_cast<double>(weak) / count);
 }
 
 TEST(DistributionsMeasure, PairDistributionIsThatOfTheEngine) {
