@@ -12,7 +12,6 @@
 #include "tasks/io/resource_failure.hpp"
 #include "tasks/io/sealed.hpp"
 #include "tasks/records/abridged.hpp"
-#include "tasks/records/earlier_record.hpp"
 #include "tasks/records/record.hpp"
 #include "tasks/records/state_file.hpp"
 #include "tasks/records/store.hpp"
@@ -86,9 +85,8 @@ auto with_state_file(const fs::path& directory, const RecordedReplicate& replica
   });
 }
 
-/// Summarises a record of the current schema. `digest` is the result digest of the file.
-RecordedReplicate summarised(Json record, const std::string& file, const std::string& name, const std::string& digest,
-                             bool is_earlier) {
+/// Summarises a record. `digest` is the result digest of the file.
+RecordedReplicate summarised(Json record, const std::string& file, const std::string& name, const std::string& digest) {
   auto summary = summarise_record(record, file);
   if (digest != summary.result_digest)
     throw InputError(
@@ -96,15 +94,13 @@ RecordedReplicate summarised(Json record, const std::string& file, const std::st
   if (const auto own = name_of(summary); own != name)
     throw InputError(
         {file, "/spec", fmt::format("the file name does not match the replicate {}", own), own + ".json", ""});
-  return {name, std::move(record), std::move(summary), is_earlier};
+  return {name, std::move(record), std::move(summary)};
 }
 
 RecordedReplicate parsed_record(const std::string& text, const std::string& file, const std::string& name) {
   auto record = parse_sealed(text, file);
   const auto digest = result_digest(record);
-  const bool is_earlier = is_earlier_record(record);
-  if (is_earlier) record = upgraded_record(std::move(record));
-  return summarised(std::move(record), file, name, digest, is_earlier);
+  return summarised(std::move(record), file, name, digest);
 }
 
 }  // namespace
@@ -123,7 +119,7 @@ static RecordedReplicate read_quickly(const std::string& file, const std::string
       return found != shorter->record.end() && found->is_string() && found->get_ref<const std::string&>() == value;
     };
     if (is("schema", record_schema) && is("result_digest", shorter->result_digest))
-      return summarised(std::move(shorter->record), file, name, shorter->result_digest, false);
+      return summarised(std::move(shorter->record), file, name, shorter->result_digest);
   }
   return parsed_record(text, file, name);
 }

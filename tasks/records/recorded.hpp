@@ -17,7 +17,6 @@ struct RecordedReplicate {
   std::string name;  ///< name of its files, without extension
   Json record;
   RecordSummary summary;
-  bool is_earlier = false;  ///< true if the record file has the schema of an earlier version
 };
 
 /// Reads the record with this name. Throws FileError if it cannot be read at the moment. Throws InputError if it is

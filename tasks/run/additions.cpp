@@ -13,7 +13,6 @@
 #include "tasks/io/sealed.hpp"
 #include "tasks/measure/recorded_measurement.hpp"
 #include "tasks/packings/packing_json.hpp"
-#include "tasks/records/earlier_record.hpp"
 #include "tasks/records/restored.hpp"
 #include "tasks/records/texts.hpp"
 
@@ -113,11 +112,7 @@ Additions additions(const fs::path& directory, const Plan& plan, const std::vect
                         plan.manifest_digest(), ""});
     if (lacks(held, plan.manifest()).empty()) continue;
     auto spec = plan.at(place->point, place->replicate);
-    if (held.is_earlier) {
-      result.impossible.push_back({name, fmt::format("the record has the schema {} of an earlier version, to which "
-                                                     "nothing can be added",
-                                                     earlier_record_schema)});
-    } else if (!held.summary.failed) {
+    if (!held.summary.failed) {
       if (const auto why = without_states(directory, held)) {
         result.impossible.push_back({name, *why});
       } else {

@@ -9,7 +9,6 @@
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/parse.hpp"
 #include "tasks/io/sealed.hpp"
-#include "tasks/records/earlier_record.hpp"
 #include "tasks/records/summary.hpp"
 #include "tasks/tables/aggregate.hpp"
 #include "tasks/tables/tables.hpp"
@@ -32,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   refused_or_read([&] { parse_sealed(text, "fuzz"); });
   refused_or_read([&] {
-    const auto summary = summarise_record(upgraded_record(parse_json(text, "fuzz")), "fuzz");
+    const auto summary = summarise_record(parse_json(text, "fuzz"), "fuzz");
     const auto table = aggregate(std::span(&summary, 1));
     to_json(table).dump();
     to_text(table);

@@ -82,6 +82,8 @@ class Seals(support.Case):
         self.assertEqual(self.refused(lambda: isojam.load(where).packing(name), "isojam.packing").place, "/schema")
         packing.unlink()
         self.refused(lambda: isojam.load(where).packing(name), str(packing), "cannot be read")
+        record.write_bytes(whole)
+        self.assertEqual(self.refused(lambda: isojam.load(where).record(name), "isojam.replicate").place, "/schema")
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@
   column of the residual that was reached.
 - Everything except frame(), groupby() and table() works without pandas. A frame has the columns and values of its rows.
 - Rows can be selected by masks and by values. An unknown column is an error that suggests a similar one.
-- Records of the earlier version have the same columns.
 - A directory without records, a path that is not a directory, and unknown names are rejected."""
 
 import copy
@@ -20,9 +19,6 @@ import tempfile
 
 import support
 from support import ALL, CUBES, MIXED, isojam, numpy
-
-from isojam import facts
-from isojam.record import upgraded
 
 
 def rows_of_tables(directory):
@@ -131,28 +127,6 @@ class States(support.Case):
         expected = [state["contacts"]["Q6"] for record in records for state in record["states"]]
         self.assertEqual(list(states["contacts.Q6"]), expected)
         self.assertNotIn("Q6", states)
-
-
-class EarlierRecords(support.Case):
-    MOVED = {"modes": "mode_scaling", "moduli": "moduli_scaling", "strict": "freed"}
-
-    def earlier(self, record):
-        """Converts a record to version 3, in which some keys of measures are in other places."""
-        def state(now):
-            return {key: value for name, each in now.items()
-                    for key, value in (each.items() if name == "contacts" else [(name, each)])}
-        before = {self.MOVED.get(key, key): next(iter(value.values())) if key in self.MOVED and value else value
-                  for key, value in record.items()}
-        return {**before, "schema": facts.earlier_record, "nearest": state(record["nearest"]),
-                "states": [state(each) for each in record["states"]]}
-
-    def test_rows_are_those_of_this_version(self):
-        for directory in ALL:
-            now = support.document(directory, "records", support.done(directory)[0])
-            before = self.earlier(now)
-            self.assertNotEqual(before, now)
-            self.assertEqual(upgraded(before), now)
-            self.assertIs(upgraded(now), now)
 
 
 class Columns(support.Case):

@@ -5,7 +5,6 @@
 #include "tasks/io/version.hpp"
 #include "tasks/measure/flag.hpp"
 #include "tasks/measure/quantity.hpp"
-#include "tasks/records/earlier_record.hpp"
 #include "tasks/records/record.hpp"
 
 // Writes a file with facts about the files of the program. The Python module reads it, so that these facts are defined
@@ -19,7 +18,6 @@ isojam::Json facts(const std::string& program) {
   json["program"] = program;
   json["version"] = isojam::version();
   json["schemas"]["record"] = isojam::record_schema;
-  json["earlier_record"] = isojam::earlier_record_schema;
   json["schemas"]["packing"] = isojam::packing_schema;
   json["schemas"]["path"] = isojam::path_schema;
   json["exclude"] = isojam::Json::array();

@@ -24,8 +24,6 @@ _FACTS = _read()
 version: str = _FACTS["version"]
 #: Values of the key "schema" in files that this version writes.
 schemas: dict[str, str] = _FACTS["schemas"]
-#: Schema of records of an earlier version. The module reads these records too.
-earlier_record: str = _FACTS["earlier_record"]
 #: Flags that exclude a replicate if a directory has no manifest.
 usual_exclusions: tuple[str, ...] = tuple(_FACTS["exclude"])
 #: All quantities in the order of tables. Each is a dict with the keys name, pointer (in a record or a state), of

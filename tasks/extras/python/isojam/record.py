@@ -11,8 +11,6 @@ _REASON = "_reason"
 #: Keys of a record that are left out: they are not measured, or other functions make their columns.
 _APART = {"schema", "checksum", "result_digest", "provenance", "spec", "status", "flags", "failure", "nearest", "states",
           "path"}
-#: Keys of the earlier version. The value is the measure whose object now contains this member, and its key there.
-_MOVED = {"mode_scaling": ("modes", "scaling"), "moduli_scaling": ("moduli", "scaling"), "freed": ("strict", "freed")}
 #: Keys of the last columns: the cost of a replicate, and its origin.
 _COST = ("evaluations", "work", "pairs")
 _ORIGIN = ("version", "git", "compiler", "manifest_digest", "seed")
@@ -59,38 +57,6 @@ def flat(document: dict[str, Any], of: str, apart: Collection[str] = ()) -> tupl
 
     visit({key: value for key, value in document.items() if key.removesuffix(_REASON) not in apart}, ())
     return values, reasons
-
-
-def upgraded(record: dict[str, Any]) -> dict[str, Any]:
-    """Converts a record of the earlier version to the present keys: each measure has one object with its name.
-
-    Any other record is returned unchanged."""
-    if record["schema"] != facts.earlier_record:
-        return record
-    measures = set(record["spec"]["measure"])
-    now: dict[str, Any] = {}
-    for key, value in record.items():
-        before = key.removesuffix(_REASON)
-        if before not in _MOVED:
-            now[key] = value
-        elif key == before and value is not None:
-            now[_MOVED[before][0]] = {_MOVED[before][1]: value}
-        else:
-            now[_MOVED[before][0] + key[len(before):]] = value
-    now["schema"] = facts.schemas["record"]
-    now["states"] = [_upgraded_state(state, measures) for state in record["states"]]
-    if record.get("nearest"):
-        now["nearest"] = _upgraded_state(record["nearest"], measures)
-    return now
-
-
-def _upgraded_state(state: dict[str, Any], measures: set[str]) -> dict[str, Any]:
-    """In the earlier version, the numbers of `contacts` are members of the state itself, after "step"."""
-    keys = list(state)
-    after = keys.index("step") + 1
-    contacts = {key: state[key] for key in keys[after:] if key not in measures}
-    others = {key: state[key] for key in keys[after:] if key in measures}
-    return {**{key: state[key] for key in keys[:after]}, **({"contacts": contacts} if contacts else {}), **others}
 
 
 def _parameters(spec: dict[str, Any]) -> Iterator[tuple[str, Any]]:

@@ -92,10 +92,10 @@ def check_seal(data: bytes, file: str | os.PathLike[str]) -> None:
                          "an unchanged file written by isojam")
 
 
-def read_sealed(file: str | os.PathLike[str], schemas: str | tuple[str, ...] = (), check: bool = True) -> dict[str, Any]:
+def read_sealed(file: str | os.PathLike[str], schema: str = "", check: bool = True) -> dict[str, Any]:
     """Returns the document in a file that isojam wrote, as a dict.
 
-    Raises InputError if the file cannot be read, is not valid JSON, or has a schema that is not in `schemas`. If
+    Raises InputError if the file cannot be read, is not valid JSON, or has another schema than `schema`. If
     `check` is true, also raises it if the checksum does not match."""
     with reading(file, _WHOLE):
         with open_file(file) as opened:
@@ -103,9 +103,8 @@ def read_sealed(file: str | os.PathLike[str], schemas: str | tuple[str, ...] = (
         if check:
             check_seal(data, file)
         document = parse_json(data)
-        schemas = (schemas,) if isinstance(schemas, str) else schemas
-        if schemas and document.get("schema") not in schemas:
-            raise InputError(file, "/schema", f"unknown value {json.dumps(document.get('schema'))}", f'"{schemas[0]}"')
+        if schema and document.get("schema") != schema:
+            raise InputError(file, "/schema", f"unknown value {json.dumps(document.get('schema'))}", f'"{schema}"')
     return document
 
 

@@ -11,7 +11,7 @@ from .files import reading
 from .notebook import html_of
 from .packing import Packing
 from .program import Path
-from .record import as_columns, read_rows, upgraded
+from .record import as_columns, read_rows
 from .rows import Rows
 from .seals import check_owner, read_sealed
 from .solid import Solid
@@ -94,9 +94,8 @@ class Study:
     def record(self, name: str) -> dict[str, Any]:
         """The record of a replicate as a dict, see schemas/replicate.schema.json."""
         file = self._file("records", name)
-        document = read_sealed(file, (facts.schemas["record"], facts.earlier_record), self._check)
+        record = read_sealed(file, facts.schemas["record"], self._check)
         with reading(file, _A_RECORD):
-            record = upgraded(document)
             spec = record["spec"]
             if not (name.startswith(f"{spec['solid']}-N{spec['particles']}-")
                     and name.endswith(f"-r{spec['replicate']:04}")):
