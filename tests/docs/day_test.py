@@ -3,7 +3,8 @@
 - A new study is validated and run. A sweep that grows keeps the finished replicates.
 - A measure that was forgotten is added without the states of the decompression, and the tables say so.
 - Cubes reach the target energy with the defaults.
-- A stopping rule ends a study, and the tables state how far its goal was reached.
+- A stopping rule ends a study, and the tables state how far its goal was reached. If more replicates are allowed, the
+  records do not change. In a terminal, the progress bar of each round never counts beyond its end.
 - In a terminal of 80 columns no line of a table is wider. A pipe gets the whole table.
 - The report, and the means of the Python module, are those of the program.
 """
@@ -12,6 +13,7 @@ import json
 import os
 import pathlib
 import pty
+import re
 import subprocess
 import sys
 import tempfile
@@ -46,12 +48,12 @@ class Day(unittest.TestCase):
         return {path.name: json.loads(path.read_text(encoding="utf-8"))
                 for path in (self.here / directory / "records").glob("*.json")}
 
-    def in_terminal(self, *arguments, columns):
-        """The output of the command in a terminal of this width."""
+    def in_terminal(self, *arguments, columns, errors=subprocess.DEVNULL):
+        """The output of the command in a terminal of this width. With `errors` STDOUT, the messages are part of it."""
         master, slave = pty.openpty()
         subprocess.run(["stty", "cols", str(columns), "rows", "40"], stdin=slave, check=True)
         with subprocess.Popen([PROGRAM, *arguments], cwd=self.here, stdin=slave, stdout=slave,
-                              stderr=subprocess.DEVNULL) as process:
+                              stderr=errors) as process:
             os.close(slave)
             out = b""
             try:
@@ -106,12 +108,24 @@ class Day(unittest.TestCase):
         self.assertEqual([record["status"] for record in self.records("r").values()], ["done"])
 
     def test_a_stopping_rule_states_its_goal(self):
-        self.write("m.json", replicates={"min": 2, "max": 3, "quantity": "phi_j", "half_width": 1e-4})
+        rule = {"min": 2, "max": 3, "quantity": "phi_j", "half_width": 1e-4}
+        self.write("m.json", replicates=rule)
         done = self.isojam("run", "m.json", "-o", "r")
         self.assertIn("min", done.stderr)
         self.assertEqual(len(self.records("r")), 3)
         goal = next(part for part in done.stdout.split("\n\n") if part.startswith("goal"))
         self.assertIn("1.0e-04", goal.replace("0.0001", "1.0e-04"))
+        before = self.records("r")
+        self.write("m.json", replicates=rule | {"max": 6})
+        shown = self.in_terminal("run", "m.json", "-o", "r", columns=80, errors=subprocess.STDOUT)
+        self.assertIn("confidence interval still too wide: running 2 more replicates", shown)
+        bars = re.findall(r"\[([#.]*)\] (\d+) of (\d+) replicates?", shown)
+        self.assertGreater(len(bars), 1, shown)
+        for bar, finished, wanted in bars:
+            self.assertEqual(len(bar), 24)
+            self.assertLessEqual(int(finished), int(wanted))
+        after = self.records("r")
+        self.assertEqual((len(after), {name: after[name] for name in before}), (6, before))
 
 
 if __name__ == "__main__":

@@ -3,8 +3,8 @@
 //   the schemas.
 // - A second run repeats nothing and changes no byte. If a record was lost or damaged, only this replicate is
 //   recomputed.
-// - A run that was stopped by SIGTERM or SIGINT exits with 75 before it is complete. The same command completes it with
-//   the same bytes.
+// - A run that was stopped by SIGTERM or SIGINT exits with 75 before it is complete. `status` then finds no process
+//   that works on it. The same command completes it with the same bytes.
 // - A replicate has the same bits in another sweep. If more replicates are requested, the existing ones do not change.
 // - A failed replicate is recorded with place and reason, is counted in the table, and gives the exit code 1.
 // - In a directory of another manifest, a run ends with 65 and changes nothing.
@@ -176,6 +176,9 @@ TEST_F(Batch, AnInterruptedRunContinues) {
     EXPECT_LT(count_records(here_ / "results"), 4U);
     EXPECT_FALSE(fs::exists(here_ / "results" / "tables.json"));
   }
+  const auto status = isojam({"status", "results"}, here_.path());
+  EXPECT_NE(status.out.find(" 0 running"), std::string::npos) << status.out;
+  EXPECT_NE(status.out.find("no process works in this directory"), std::string::npos) << status.out;
   const auto completed = run();
   EXPECT_EQ(completed.exit_code, 0) << completed.err;
   EXPECT_EQ(completed.out, finished_.out);

@@ -2,7 +2,8 @@
 // - A sweep can grow in its directory by solids, sizes and values of a swept parameter. Earlier replicates keep their
 //   bytes. All results and the table are those of a run of the larger manifest.
 // - Measures that were added before stay, and new replicates get them. A run of the smaller manifest changes nothing.
-// - A manifest with another seed, another setting, or other swept parameters is refused, and nothing changes.
+// - A run or a dry run of a manifest with another seed, another setting, or other swept parameters is refused, and
+//   nothing changes.
 // - If a limit is raised for one solid, only its failed replicates are computed again. A setting of a finished
 //   replicate cannot change.
 // - Cubes reach the target energy with the default limit.
@@ -110,9 +111,11 @@ TEST_F(Growth, RefusesEveryOtherChange) {
   ASSERT_EQ(run(small()).exit_code, 0);
   const auto before = files_below(here_ / "r");
   const auto refused = [&](const Json& manifest, const std::string& said) {
-    const auto ended = run(manifest);
-    EXPECT_EQ(ended.exit_code, 65) << said;
-    EXPECT_NE(ended.err.find(said), std::string::npos) << ended.err;
+    const auto dry_run = [&] { return isojam({"run", "m.json", "-o", "r", "--dry-run"}, here_.path()); };
+    for (const auto& ended : {run(manifest), dry_run()}) {
+      EXPECT_EQ(ended.exit_code, 65) << said;
+      EXPECT_NE(ended.err.find(said), std::string::npos) << ended.err;
+    }
     EXPECT_TRUE(files_below(here_ / "r") == before) << said;
   };
   auto changed = large();
