@@ -165,34 +165,18 @@ TEST(LargeSolids, AreRightWhereFacesMeet) {
 
 TEST(LargeSolids, AreRightWhereCornersAndEdgesMeet) {
   RandomStream random{99};
-  double worst = 0;
-  int pairs = 0, skipped = 0, clipped = 0;
+  PointedContacts contacts{.with_features = true, .measure = found_volume};
   FeatureSet faces{}, edges{};
   for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b) {
     for (const double volume : {1e-3, 1e-7, 1e-11, 1e-15}) {
       for (const auto& approach : {random_approach, corner_over_face, edge_over_edge}) {
-        const auto touching = at_volume(approach(a, b, random), volume, found_volume);
-        if (!touching) ++skipped;
-        if (!touching) continue;
-        ++pairs;
-        const QuadOverlap right = exact(*touching);
-        const Overlap got = found(*touching);
-        const double here = error(*touching, right, got);
-        EXPECT_LE(here, 1e-12) << names(a, b) << ", V " << volume;
-        worst = std::max(worst, here);
-        clipped += got.path == OverlapPath::clip;
-        faces |= got.faces_a, edges |= got.edges_a;
-        EXPECT_EQ(got.faces_a, right.faces_a) << names(a, b) << ", V " << volume;
-        EXPECT_EQ(got.faces_b, right.faces_b) << names(a, b) << ", V " << volume;
-        EXPECT_EQ(got.edges_a, right.edges_a) << names(a, b) << ", V " << volume;
-        EXPECT_EQ(got.edges_b, right.edges_b) << names(a, b) << ", V " << volume;
+        if (const auto got = contacts.expect_right(approach(a, b, random), volume))
+          faces |= got->faces_a, edges |= got->edges_a;
       }
     }
   });
-  std::printf("%d pointed contacts: %.1e at worst, %d clipped, %d not made; %d faces and %d edges\n", pairs, worst,
-              clipped, skipped, faces.count(), edges.count());
-  EXPECT_GT(pairs, 450);
-  EXPECT_LT(clipped, pairs / 50);
+  contacts.expect_more_than(450);
+  EXPECT_LT(contacts.clipped, contacts.pairs / 50);
   for (const std::uint64_t word : edges.word) EXPECT_GT(std::popcount(word), 40) << "edges in every word";
   EXPECT_GT(std::popcount(faces.word[1]), 20);
 }
@@ -255,19 +239,9 @@ TEST(LargeSolids, HaveAllBlocksOfTheHessian) {
 }
 
 TEST(LargeSolids, AreRightWhereTheyCoincide) {
-  double worst = 0;
-  for (const Large& large : large_solids()) {
-    const ConvexSolid& solid = large.solid;
-    PosedPair same{solid, solid, {}, {}};
-    EXPECT_NEAR(found(same).volume, 1, 1e-14) << solid.name();
-    // Faces shifted along an edge remain in the same plane.
-    const Edge& edge = solid.edges().front();
-    same.at_b.position = .3 * (solid.vertices()[edge.head] - solid.vertices()[edge.tail]);
-    const double here = error(same);
-    EXPECT_LE(here, 1e-14) << solid.name();
-    worst = std::max(worst, here);
-  }
-  std::printf("faces in each other: %.1e at worst\n", worst);
+  expect_coincident_right([](const auto& visit) {
+    for (const Large& large : large_solids()) visit(large.solid);
+  });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,61 @@ void expect_flat_contacts_right(const Family& for_each_pair, RandomStream& rando
               errors.back(), middle, clipped);
   EXPECT_LE(middle, 1e-15);
   EXPECT_LT(clipped, static_cast<int>(errors.size()) / 50);
+}
+
+/// Tests of contacts with a given V, such as corners over faces, with clipping in quadruple precision as reference.
+struct PointedContacts {
+  double limit = 1e-12;                                ///< largest error of V, S and M
+  bool with_features = false;                          ///< true if the features must be those that clipping finds
+  double (*measure)(const PosedPair&) = exact_volume;  ///< V of a pair
+  int pairs = 0, skipped = 0, clipped = 0;             ///< skipped: without a pair with this V
+  double worst = 0;
+
+  /// Tests a pair with this V. Returns its overlap; nullopt if there is no such pair.
+  std::optional<Overlap> expect_right(const Approach& approach, double volume) {
+    const auto touching = at_volume(approach, volume, measure);
+    if (!touching) {
+      ++skipped;
+      return std::nullopt;
+    }
+    ++pairs;
+    SCOPED_TRACE(testing::Message() << names(touching->a, touching->b) << ", V " << volume);
+    const QuadOverlap right = exact(*touching);
+    const Overlap got = found(*touching);
+    const double here = error(*touching, right, got);
+    EXPECT_LE(here, limit);
+    worst = std::max(worst, here);
+    clipped += got.path == OverlapPath::clip;
+    if (with_features) {
+      EXPECT_EQ(got.faces_a, right.faces_a);
+      EXPECT_EQ(got.faces_b, right.faces_b);
+      EXPECT_EQ(got.edges_a, right.edges_a);
+      EXPECT_EQ(got.edges_b, right.edges_b);
+    }
+    return got;
+  }
+
+  void expect_more_than(int least) const {
+    std::printf("%d pointed contacts: %.1e at worst, %d clipped, %d not made\n", pairs, worst, clipped, skipped);
+    EXPECT_GT(pairs, least);
+  }
+};
+
+/// For each solid that the function `for_each_solid` visits: V is right if it coincides with itself. The errors are at
+/// most 1e-14 if it is shifted along an edge, so that faces remain in the same plane.
+template <class Solids>
+void expect_coincident_right(const Solids& for_each_solid) {
+  double worst = 0;
+  for_each_solid([&](const ConvexSolid& solid) {
+    PosedPair same{solid, solid, {}, {}};
+    EXPECT_NEAR(found(same).volume, 1, 1e-14) << solid.name();
+    const Edge& edge = solid.edges().front();
+    same.at_b.position = .3 * (solid.vertices()[edge.head] - solid.vertices()[edge.tail]);
+    const double here = error(same);
+    EXPECT_LE(here, 1e-14) << solid.name();
+    worst = std::max(worst, here);
+  });
+  std::printf("faces in each other: %.1e at worst\n", worst);
 }
 
 /// For more than `least` pairs, the derivatives of S agree within 1e-8 with differences in quadruple precision.

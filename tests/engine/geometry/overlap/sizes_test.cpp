@@ -3,7 +3,7 @@
 // compared with clipping in quadruple precision:
 // - For face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of at most 1e-13,
 //   half of the pairs at most 1e-15.
-// - For corners over faces and edges over edges with V = 1e-3 … 1e-15, errors are at most 1e-12.
+// - For corners over faces and edges over edges with V = 1e-3 … 1e-15, errors are at most 5e-12.
 // - The Hessian agrees with differences of S in quadruple precision to 1e-8 of its translational block.
 // - If one solid is inside the other, V is its volume to 1e-14. S is zero within 1e-14 of the surface of the inner
 //   solid, and M is zero within 1e-14 of this surface times the distance.
@@ -64,24 +64,15 @@ TEST(UnlikeSizes, FaceContactsAreAccurate) {
 
 TEST(UnlikeSizes, CornersAndCrossedEdgesAreAccurate) {
   RandomStream random{92};
-  double worst = 0;
-  int pairs = 0, skipped = 0, clipped = 0;
+  PointedContacts contacts{.limit = 5e-12};
   for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b) {
     for (const double volume : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {
-      const auto approach = (pairs + skipped) % 2 == 0 ? corner_over_face : edge_over_edge;
-      const auto touching = at_volume(approach(a, b, random), volume);
-      if (!touching) ++skipped;
-      if (!touching) continue;
-      ++pairs;
-      clipped += found(*touching).path == OverlapPath::clip;
-      const double here = error(*touching);
-      EXPECT_LE(here, 5e-12) << names(a, b) << ", V " << volume;
-      worst = std::max(worst, here);
+      const auto approach = (contacts.pairs + contacts.skipped) % 2 == 0 ? corner_over_face : edge_over_edge;
+      contacts.expect_right(approach(a, b, random), volume);
     }
   });
-  std::printf("%d pointed contacts: %.1e at worst, %d clipped, %d not made\n", pairs, worst, clipped, skipped);
-  EXPECT_GT(pairs, 600);
-  EXPECT_LT(clipped, pairs / 50);
+  contacts.expect_more_than(600);
+  EXPECT_LT(contacts.clipped, contacts.pairs / 50);
 }
 
 TEST(UnlikeSizes, HessiansAgreeWithDifferences) {

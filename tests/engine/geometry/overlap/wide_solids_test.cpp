@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -76,34 +75,19 @@ TEST(WideSolids, FaceContactsAreAccurate) {
 
 TEST(WideSolids, CornersAndCrossedEdgesAreAccurate) {
   RandomStream random{84};
-  double worst = 0;
-  int pairs = 0, skipped = 0, clipped = 0, beyond = 0;
+  PointedContacts contacts{.with_features = true};
+  int beyond = 0;
   for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b) {
     for (const double volume : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {
       for (const auto& approach : {random_approach, corner_over_face, edge_over_edge}) {
-        const auto touching = at_volume(approach(a, b, random), volume);
-        if (!touching) ++skipped;
-        if (!touching) continue;
-        ++pairs;
-        const double here = error(*touching);
-        EXPECT_LE(here, 1e-12) << names(a, b) << ", V " << volume;
-        worst = std::max(worst, here);
-        const Overlap got = found(*touching);
-        const QuadOverlap right = exact(*touching);
-        clipped += got.path == OverlapPath::clip;
-        beyond += (got.edges_a | got.edges_b).word[0] >> 32 != 0;
-        EXPECT_EQ(got.faces_a, right.faces_a) << names(a, b) << ", V " << volume;
-        EXPECT_EQ(got.faces_b, right.faces_b) << names(a, b) << ", V " << volume;
-        EXPECT_EQ(got.edges_a, right.edges_a) << names(a, b) << ", V " << volume;
-        EXPECT_EQ(got.edges_b, right.edges_b) << names(a, b) << ", V " << volume;
+        const auto got = contacts.expect_right(approach(a, b, random), volume);
+        beyond += got && (got->edges_a | got->edges_b).word[0] >> 32 != 0;
       }
     }
   });
-  std::printf("%d pointed contacts: %.1e at worst, %d clipped, %d not made, %d with edges beyond 31\n", pairs, worst,
-              clipped, skipped, beyond);
-  EXPECT_GT(pairs, 500);
+  contacts.expect_more_than(500);
   EXPECT_GT(beyond, 100);
-  EXPECT_LT(clipped, pairs / 50);
+  EXPECT_LT(contacts.clipped, contacts.pairs / 50);
 }
 
 TEST(WideSolids, HessiansAgreeWithDifferences) {
@@ -112,18 +96,9 @@ TEST(WideSolids, HessiansAgreeWithDifferences) {
 }
 
 TEST(WideSolids, CoincidentSolidsAreAccurate) {
-  double worst = 0;
-  for (const ConvexSolid* solid : wide_solids()) {
-    PosedPair same{*solid, *solid, {}, {}};
-    EXPECT_NEAR(found(same).volume, 1, 1e-14) << solid->name();
-    // If a solid is shifted along an edge, faces remain in the same plane.
-    const Edge& edge = solid->edges().front();
-    same.at_b.position = .3 * (solid->vertices()[edge.head] - solid->vertices()[edge.tail]);
-    const double here = error(same);
-    EXPECT_LE(here, 1e-14) << solid->name();
-    worst = std::max(worst, here);
-  }
-  std::printf("faces in each other: %.1e at worst\n", worst);
+  expect_coincident_right([](const auto& visit) {
+    for (const ConvexSolid* solid : wide_solids()) visit(*solid);
+  });
 }
 
 /// Members of a loop that must not depend on the limit of edges, except for the numbers of the edges of B.
