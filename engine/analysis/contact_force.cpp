@@ -1,7 +1,6 @@
 #include "engine/analysis/contact_force.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "engine/geometry/overlap/penetration.hpp"
 #include "engine/parallel/parallel.hpp"

@@ -1,7 +1,6 @@
 #include "engine/arithmetic/distributions.hpp"
 
 #include <cassert>
-#include <cmath>
 
 // libquadmath's functions, declared by hand as in elementary.cpp.
 __extension__ using Quad = __float128;

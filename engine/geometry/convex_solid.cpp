@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <stdexcept>
 #include <utility>
 
 #include "engine/geometry/hull.hpp"

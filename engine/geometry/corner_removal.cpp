@@ -1,11 +1,9 @@
 #include "engine/geometry/corner_removal.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cassert>
 #include <limits>
 #include <map>
-#include <utility>
 
 namespace isojam {
 

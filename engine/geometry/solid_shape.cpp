@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <utility>
 
 #include "engine/arithmetic/elementary.hpp"
 #include "engine/geometry/hull.hpp"

@@ -1,9 +1,7 @@
 #include "engine/solve/jam.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <cmath>
 #include <utility>
 
 #include "engine/arithmetic/elementary.hpp"

@@ -4,7 +4,6 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "engine/arithmetic/elementary.hpp"
 #include "engine/solve/straight_line.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <tuple>
 #include <vector>
 
 #include "engine/arithmetic/elementary.hpp"

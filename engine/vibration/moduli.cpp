@@ -1,7 +1,6 @@
 #include "engine/vibration/moduli.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "engine/packing/cell/strain.hpp"

@@ -1,7 +1,6 @@
 #include "engine/vibration/relax_to_minimum.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "engine/vibration/spectrum.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>

@@ -1,7 +1,6 @@
 #include "engine/vibration/stability.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>

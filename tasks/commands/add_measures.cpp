@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "tasks/io/input_error.hpp"
 #include "tasks/manifest/cost.hpp"
 #include "tasks/run/graph.hpp"
 

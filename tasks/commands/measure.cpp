@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 
 #include "tasks/commands/add_measures.hpp"
 #include "tasks/commands/command.hpp"
 #include "tasks/commands/shared.hpp"
-#include "tasks/io/file.hpp"
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/interrupt.hpp"
 #include "tasks/io/memory.hpp"
 #include "tasks/io/place.hpp"
-#include "tasks/io/standard_streams.hpp"
 #include "tasks/run/graph.hpp"
 #include "tasks/tables/table_of.hpp"
 #include "tasks/tables/tables.hpp"

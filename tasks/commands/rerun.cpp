@@ -4,7 +4,6 @@
 #include "tasks/commands/shared.hpp"
 #include "tasks/io/file.hpp"
 #include "tasks/io/interrupt.hpp"
-#include "tasks/io/sealed.hpp"
 #include "tasks/io/standard_streams.hpp"
 #include "tasks/records/store.hpp"
 #include "tasks/records/summary.hpp"

@@ -12,7 +12,6 @@
 #include "tasks/io/file.hpp"
 #include "tasks/io/interrupt.hpp"
 #include "tasks/io/memory.hpp"
-#include "tasks/io/standard_streams.hpp"
 #include "tasks/io/texts.hpp"
 #include "tasks/records/failure_text.hpp"
 #include "tasks/records/record.hpp"

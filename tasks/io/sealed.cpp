@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cassert>
-#include <utility>
 
 #include "tasks/io/file.hpp"
 #include "tasks/io/hash.hpp"

@@ -6,7 +6,6 @@
 #include <map>
 #include <string_view>
 #include <type_traits>
-#include <utility>
 #include <variant>
 
 #include "tasks/manifest/fields.hpp"

@@ -1,7 +1,5 @@
 #include "engine/analysis/gaps.hpp"
 
-#include <algorithm>
-
 #include "engine/analysis/contact_force.hpp"
 #include "engine/analysis/pair_distribution.hpp"
 #include "tasks/measure/shared_parts.hpp"

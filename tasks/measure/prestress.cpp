@@ -5,7 +5,6 @@
 #include "engine/rigidity/pair_stiffness.hpp"
 #include "engine/rigidity/rigidity.hpp"
 #include "engine/vibration/dynamical_matrix.hpp"
-#include "engine/vibration/mode_statistics.hpp"
 #include "engine/vibration/stability.hpp"
 #include "tasks/measure/shared_parts.hpp"
 

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <concepts>
-#include <cstring>
 #include <utility>
 
 #include "tasks/packings/gsd_layer.hpp"

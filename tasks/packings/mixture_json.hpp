@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "engine/packing/mixture/mixture.hpp"
 #include "tasks/packings/definitions.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include "tasks/io/hash.hpp"
 #include "tasks/io/version.hpp"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/sealed.hpp"

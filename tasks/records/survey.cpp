@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <set>
-#include <stdexcept>
 
 #include "tasks/io/file.hpp"
 #include "tasks/io/input_error.hpp"

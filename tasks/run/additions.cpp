@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/vibration/settle.hpp"
-#include "tasks/io/file.hpp"
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/place.hpp"
 #include "tasks/io/sealed.hpp"

@@ -1,7 +1,6 @@
 #include "tasks/run/campaign.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 
 #include "tasks/io/file.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "engine/arithmetic/elementary.hpp"
 #include "tasks/io/input_error.hpp"

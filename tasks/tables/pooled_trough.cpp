@@ -3,8 +3,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "tasks/io/hash.hpp"
-
 namespace isojam {
 
 PackedAngles::PackedAngles(const AngleHistogram& histogram)

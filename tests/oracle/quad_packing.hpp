@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "engine/geometry/overlap/clipped_overlap.hpp"

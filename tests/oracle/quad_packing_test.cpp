@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "engine/packing/energy.hpp"
 #include "engine/random/stream.hpp"
 

@@ -12,8 +12,8 @@ import pathlib
 
 import numpy
 
-from polyhedron import (antiprism, augmented, cupola, dual, faces, is_regular_faced, joined, normal_of, orbit, polygon,
-                        prism, pyramid, reflections, snub, unit_edges, with_sides, wythoff, zonotope)
+from polyhedron import (antiprism, augmented, cupola, dual, faces, is_regular_faced, normal_of, orbit, polygon, prism,
+                        pyramid, reflections, snub, unit_edges, with_sides, wythoff, zonotope)
 
 GOLDEN = (1 + 5**0.5) / 2
 META = -1 / 5**0.5  # cosine between two axes of order five that are neither neighbours nor opposite

@@ -5,10 +5,9 @@ import json
 import numpy
 
 import files
-from corpus import (BINARY_STL, BINARY_STL_WITH_KEYS, BOX, DENTED, DODECAHEDRON, FACES, HOUSE, OFF, OFF_WITH_KEYS,
-                    SPLIT_EDGE, SUBDIVIDED, TEXT_STL, TEXT_STL_WITH_KEYS, TRIANGLES, TURN, TURNED, TWICE, VERTICES,
-                    VOLUME, WELD, Case, binary_stl, chain, drop, either, every, insert, off, own_corners, placed, put, read,
-                    refused, same, shifted, text_stl)
+from corpus import (BINARY_STL, BINARY_STL_WITH_KEYS, BOX, DENTED, FACES, OFF, OFF_WITH_KEYS, SPLIT_EDGE, SUBDIVIDED,
+                    TEXT_STL, TEXT_STL_WITH_KEYS, TRIANGLES, TURN, TURNED, TWICE, VERTICES, VOLUME, WELD, Case, binary_stl,
+                    chain, drop, either, every, insert, off, own_corners, placed, put, read, refused, same, text_stl)
 
 
 # ---- OBJ: vertices in lines 1 to 10, faces in lines 11 to 17 ---------------------------------------------------------

@@ -1,7 +1,6 @@
 #include "engine/geometry/overlap/distances.hpp"
 
 #include <array>
-#include <bit>
 #include <cassert>
 #include <cstring>
 

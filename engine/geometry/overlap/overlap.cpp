@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/geometry/overlap/contact_loop.hpp"

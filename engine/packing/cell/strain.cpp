@@ -1,6 +1,5 @@
 #include "engine/packing/cell/strain.hpp"
 
-#include <cmath>
 #include <numbers>
 
 namespace isojam {

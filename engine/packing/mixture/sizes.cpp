@@ -2,7 +2,6 @@
 
 #include <cassert>
 #include <charconv>
-#include <cmath>
 
 #include "engine/arithmetic/distributions.hpp"
 #include "engine/arithmetic/elementary.hpp"

@@ -1,6 +1,5 @@
 #include "engine/solve/factor/incomplete_cholesky.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 

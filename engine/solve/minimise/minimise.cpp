@@ -1,7 +1,5 @@
 #include "engine/solve/minimise/minimise.hpp"
 
-#include <array>
-#include <cstddef>
 #include <utility>
 
 #include "engine/solve/minimise/descent.hpp"

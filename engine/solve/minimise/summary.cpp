@@ -1,8 +1,5 @@
 #include "engine/solve/minimise/summary.hpp"
 
-#include <array>
-#include <cstddef>
-
 namespace isojam {
 
 MinimiseWork& MinimiseWork::operator+=(const MinimiseWork& term) {

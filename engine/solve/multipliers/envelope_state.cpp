@@ -1,7 +1,6 @@
 #include "engine/solve/multipliers/envelope_state.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

@@ -1,6 +1,5 @@
 #include "engine/solve/multipliers/local_relaxation.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -1,6 +1,5 @@
 #include "tasks/extras/chart/data.hpp"
 
-#include <algorithm>
 #include <map>
 
 #include "tasks/extras/chart/conclusion.hpp"

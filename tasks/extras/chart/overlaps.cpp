@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/geometry/overlap/overlap.hpp"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
 
 #include "engine/random/stream.hpp"
 #include "tasks/extras/chart/comparisons.hpp"

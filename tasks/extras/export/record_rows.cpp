@@ -4,7 +4,6 @@
 #include <string_view>
 #include <utility>
 
-#include "tasks/extras/export/stored_states.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/tables/lines.hpp"
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <stdexcept>
 #include <vector>
 
 #include "engine/analysis/alignment/critical_angles.hpp"

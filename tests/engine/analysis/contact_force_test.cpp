@@ -16,8 +16,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "engine/geometry/solids/solid.hpp"

@@ -12,8 +12,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <map>
 #include <numbers>
 
 #include "engine/analysis/contacts.hpp"

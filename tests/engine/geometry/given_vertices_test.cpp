@@ -14,7 +14,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <limits>
 
 #include "engine/geometry/planar_faces.hpp"

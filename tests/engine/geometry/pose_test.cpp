@@ -18,7 +18,6 @@ namespace isojam {
 namespace {
 
 using namespace testing_pairs;
-using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 

@@ -6,8 +6,9 @@
 
 #include "engine/packing/cohesion.hpp"
 
+#include <gtest/gtest.h>
+
 #include <array>
-#include <cmath>
 
 #include "tests/engine/packing/packings.hpp"
 

@@ -8,7 +8,6 @@
 // - energy_change: the paper's rule stops conjugate gradients with this reason, and the state does not count as an
 //   equilibrium. With a larger tolerance the rule stops earlier.
 
-#include <array>
 #include <limits>
 #include <set>
 

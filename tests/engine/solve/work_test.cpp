@@ -14,8 +14,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "engine/packing/neighbours.hpp"
 #include "engine/solve/jam.hpp"
 #include "engine/solve/minimise/step_model.hpp"

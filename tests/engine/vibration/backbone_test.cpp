@@ -17,7 +17,6 @@
 #include <cmath>
 #include <set>
 
-#include "engine/vibration/dynamical_matrix.hpp"
 #include "tests/engine/solve/solve_support.hpp"
 #include "tests/engine/vibration/jammed_states.hpp"
 

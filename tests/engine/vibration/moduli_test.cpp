@@ -23,7 +23,6 @@
 namespace isojam {
 namespace {
 
-using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;

@@ -15,7 +15,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
-#include <cmath>
 #include <cstdio>
 #include <map>
 

@@ -18,7 +18,6 @@
 
 #include <filesystem>
 #include <future>
-#include <thread>
 
 #include "tasks/io/atomic_file.hpp"
 #include "tasks/io/process.hpp"

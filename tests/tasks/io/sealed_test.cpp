@@ -8,8 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "tasks/io/input_error.hpp"
 #include "tasks/packings/packing_json.hpp"
 

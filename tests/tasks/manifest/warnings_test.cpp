@@ -9,7 +9,6 @@
 
 #include <filesystem>
 
-#include "tasks/io/parse.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
 #include "tests/tasks/support/support.hpp"
 

@@ -29,7 +29,6 @@
 #include "tasks/io/input_error.hpp"
 #include "tasks/measure/recorded_measurement.hpp"
 #include "tasks/measure/trough_parts.hpp"
-#include "tasks/records/record.hpp"
 #include "tests/tasks/support/schema.hpp"
 #include "tests/tasks/support/support.hpp"
 

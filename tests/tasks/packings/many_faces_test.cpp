@@ -6,9 +6,7 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 
-#include "tasks/manifest/manifest.hpp"
 #include "tests/tasks/support/support.hpp"
 
 namespace isojam {

@@ -10,15 +10,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "tasks/extras/export/formats.hpp"
 #include "tasks/io/input_error.hpp"
 #include "tasks/manifest/manifest.hpp"
 #include "tasks/manifest/plan.hpp"
-#include "tasks/measure/quantity.hpp"
 #include "tasks/packings/packing_json.hpp"
-#include "tasks/records/checkpoint.hpp"
 #include "tests/tasks/support/schema.hpp"
 #include "tests/tasks/support/support.hpp"
 

@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "engine/geometry/hull.hpp"
 #include "tasks/packings/content_error.hpp"
 #include "tasks/packings/intake.hpp"

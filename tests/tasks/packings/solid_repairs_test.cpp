@@ -22,7 +22,6 @@
 namespace isojam {
 namespace {
 
-using Eigen::Vector3d;
 using namespace test;
 
 Json swept(const Json& solid) {

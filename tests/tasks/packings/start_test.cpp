@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "engine/packing/energy.hpp"
 #include "tasks/extras/export/formats.hpp"
@@ -22,7 +21,6 @@
 #include "tasks/manifest/plan.hpp"
 #include "tasks/packings/foreign_packing.hpp"
 #include "tasks/packings/gsd_layer.hpp"
-#include "tasks/packings/packing_json.hpp"
 #include "tasks/packings/similarity.hpp"
 #include "tests/tasks/support/schema.hpp"
 #include "tests/tasks/support/support.hpp"

@@ -11,7 +11,6 @@
 #include <limits>
 
 #include "tasks/io/input_error.hpp"
-#include "tasks/io/sealed.hpp"
 #include "tasks/measure/recorded_measurement.hpp"
 #include "tasks/records/record.hpp"
 #include "tasks/records/store.hpp"

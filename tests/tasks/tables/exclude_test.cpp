@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "tasks/io/file.hpp"
 #include "tasks/io/parse.hpp"

@@ -15,7 +15,6 @@
 #include <cmath>
 
 #include "engine/random/stream.hpp"
-#include "tasks/io/sealed.hpp"
 #include "tasks/measure/trough_parts.hpp"
 #include "tasks/records/record.hpp"
 #include "tasks/tables/aggregate.hpp"

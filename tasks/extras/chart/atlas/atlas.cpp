@@ -1,7 +1,5 @@
 #include "tasks/extras/chart/atlas/atlas.hpp"
 
-#include <array>
-#include <cstddef>
 #include <iterator>
 
 namespace isojam {

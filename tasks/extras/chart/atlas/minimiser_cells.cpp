@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "engine/solve/jam.hpp"
 #include "engine/solve/multipliers/multipliers.hpp"

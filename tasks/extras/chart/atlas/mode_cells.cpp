@@ -2,14 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-
 #include "engine/solve/factor/dense.hpp"
 #include "engine/vibration/dynamical_matrix.hpp"
 #include "engine/vibration/lanczos.hpp"
 #include "engine/vibration/lanczos_operators.hpp"
-#include "engine/vibration/stability.hpp"
 #include "tasks/extras/chart/atlas/atlas.hpp"
 #include "tasks/extras/chart/atlas/cells.hpp"
 #include "tasks/extras/chart/atlas/states.hpp"

@@ -4,7 +4,7 @@ import contextlib
 import csv
 import operator
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from typing import IO, Any
 
 import numpy

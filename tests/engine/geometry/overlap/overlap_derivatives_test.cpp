@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <functional>
 #include <sstream>
 
@@ -23,7 +22,6 @@ namespace isojam {
 namespace {
 
 using namespace testing_pairs;
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using oracle::skew;
 using Vector12d = Eigen::Matrix<double, 12, 1>;

@@ -16,7 +16,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <limits>
 
 #include "tasks/extras/chart/conclusion.hpp"
