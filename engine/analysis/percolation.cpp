@@ -28,7 +28,7 @@ RandomPercolation random_percolation(const Packing& packing, std::span<const Nei
   if (bonds > contacts.size()) throw std::invalid_argument("there are fewer contacts than bonds");
   if (draws < 1) throw std::invalid_argument("at least one draw is needed");
   std::vector<NeighbourPair> order(contacts.begin(), contacts.end());
-  RandomPercolation mean;
+  RandomPercolation sum;  // divided by the number of draws at the end, so that a share is at most 1
   for (int draw = 0; draw < draws; ++draw) {
     // The first steps of a Fisher–Yates shuffle choose the bonds.
     for (std::size_t k = 0; k < bonds; ++k) {
@@ -36,11 +36,12 @@ RandomPercolation random_percolation(const Packing& packing, std::span<const Nei
       std::swap(order[k], order[k + static_cast<std::size_t>(random.uniform() * left)]);
     }
     const Percolation drawn = percolation(packing, std::span(order).first(bonds));
-    mean.S += drawn.S / draws;
-    mean.largest += drawn.largest / draws;
-    for (std::size_t rank = 1; rank <= mean.winds.size(); ++rank)
-      mean.winds[rank - 1] += std::cmp_greater_equal(drawn.winding_rank, rank) ? 1.0 / draws : 0;
+    sum.S += drawn.S;
+    sum.largest += drawn.largest;
+    for (int rank = 1; rank <= drawn.winding_rank; ++rank) ++sum.winds[static_cast<std::size_t>(rank - 1)];
   }
+  RandomPercolation mean{sum.S / draws, sum.largest / draws, sum.winds};
+  for (double& share : mean.winds) share /= draws;
   return mean;
 }
 
