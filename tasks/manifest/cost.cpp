@@ -30,6 +30,9 @@ constexpr double power_of_doubling = 0.07;
 constexpr double law_energy = 3.2e-5, energy_power = 0.25, smallest_energy_factor = 0.5;
 /// Factors of the compression if the target applies before relaxation, and of both stages if the cell shape relaxes.
 constexpr double gentle = 0.65, free_cell = 1.2;
+/// Factor of a compression with cohesion: the particles attract each other from the beginning, so that each state needs
+/// all its evaluations. Cost of a compression in a training cycle, in units of the first compression.
+constexpr double cohesive = 6, again = 0.5;
 
 /// Δφ of the first state of a decompression.
 constexpr double first_distance = 0.13;
@@ -54,6 +57,7 @@ double jam_seconds(const ReplicateSpec& spec) {
   up *= nearest::pow(std::min(evaluations, 16 * law_evaluations) / law_evaluations, evaluations_power);
   up *= std::max(smallest_energy_factor, nearest::pow(first.target_energy / law_energy, energy_power));
   if (first.target_before_relaxation) up *= gentle;
+  if (spec.options.cohesion.acts()) up *= cohesive;
   if (spec.start && spec.start->stage == JamStage::expansion) up = 0;
   const bool is_near = second.final_distance < law_distance;
   const double power =
@@ -61,7 +65,8 @@ double jam_seconds(const ReplicateSpec& spec) {
   const double down = decompression * nearest::pow(law_distance / second.final_distance, power) *
                       nearest::log(1 - law_fraction) / nearest::log(1 - std::min(second.step_fraction, 0.9)) *
                       nearest::pow(size, decompression_size_power);
-  return (up + down) * (spec.options.cell == CellShape::free ? free_cell : 1);
+  const int cycles = spec.options.cycles;
+  return (up * (1 + again * cycles) + down * (1 + cycles)) * (spec.options.cell == CellShape::free ? free_cell : 1);
 }
 
 /// CPU seconds of a measure for one state with N = 100, and its power of N.
@@ -70,17 +75,12 @@ struct MeasureLaw {
   double at_100, power;
 };
 constexpr std::array measure_laws{
-    MeasureLaw{Measure::contacts, 0.01, 1},
-    MeasureLaw{Measure::order, 0.0027, 1.75},
-    MeasureLaw{Measure::clusters, 0.0065, 1.1},
-    MeasureLaw{Measure::modes, 0.046, 1.8},
-    MeasureLaw{Measure::moduli, 0.1, 2.1},
-    MeasureLaw{Measure::strict, 0.1, 2.1},
-    MeasureLaw{Measure::rigidity, 0.025, 2.5},
-    MeasureLaw{Measure::backbone, 0.06, 3},
-    MeasureLaw{Measure::difference_modes, 0.68, 2.3},
-    MeasureLaw{Measure::prestress, 0.28, 2.4},
-    MeasureLaw{Measure::gaps, 0.065, 1.1},
+    MeasureLaw{Measure::contacts, 0.01, 1},     MeasureLaw{Measure::order, 0.0027, 1.75},
+    MeasureLaw{Measure::clusters, 0.0065, 1.1}, MeasureLaw{Measure::percolation, 0.015, 1.1},
+    MeasureLaw{Measure::modes, 0.046, 1.8},     MeasureLaw{Measure::moduli, 0.1, 2.1},
+    MeasureLaw{Measure::strict, 0.1, 2.1},      MeasureLaw{Measure::rigidity, 0.025, 2.5},
+    MeasureLaw{Measure::backbone, 0.06, 3},     MeasureLaw{Measure::difference_modes, 0.68, 2.3},
+    MeasureLaw{Measure::prestress, 0.28, 2.4},  MeasureLaw{Measure::gaps, 0.065, 1.1},
 };
 /// The rank of the constraints takes this many times longer for tetrahedra, which have many states of self-stress.
 constexpr double rank_of_tetrahedra = 10;
@@ -120,8 +120,9 @@ constexpr double factor_bytes = 1.3e3, factor_power = 1.6;
 
 Cost estimated_cost(const ReplicateSpec& spec, bool keep_path) {
   const double n = spec.particles;
-  const double states =
-      1 + steps_to(spec.options.decompression.final_distance, spec.options.decompression.step_fraction);
+  const double steps_down =
+      steps_to(spec.options.decompression.final_distance, spec.options.decompression.step_fraction);
+  const double states = ends_at_zero_pressure(spec.options) ? 1 : 1 + steps_down;
   Cost cost;
   cost.cpu_seconds = jam_seconds(spec) + measure_seconds(spec, states);
   cost.memory_bytes = particle_bytes * n + factor_bytes * nearest::pow(n, factor_power);

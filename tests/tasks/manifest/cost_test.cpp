@@ -1,6 +1,7 @@
 // Properties tested here:
 // - For 18 studies of the examples, the estimated CPU time is within a factor of 1.5 of the measured one.
-// - More of everything that takes time costs more: particles, distance, compression, measures, shear, a free cell.
+// - More of everything that takes time costs more: particles, distance, compression, measures, shear, a free cell, training
+//   cycles, cohesion.
 // - More packings and longer records take more disk space.
 
 #include "tasks/manifest/cost.hpp"
@@ -61,6 +62,7 @@ TEST(Cost, GrowsWithEverythingThatTakesTime) {
        {Json{{"sweep", {{"particles", {200}}}}}, Json{{"protocol", {{"final_distance", 0.001}}}},
         Json{{"protocol", {{"consolidation_step", 0.01}}}}, Json{{"protocol", {{"step_fraction", 0.1}}}},
         Json{{"protocol", {{"consolidation_evaluations", 4000}}}}, Json{{"protocol", {{"cell", "free"}}}},
+        Json{{"protocol", {{"cycles", 1}}}}, Json{{"protocol", {{"cohesion", {{"strength", 1e-5}}}}}},
         Json{{"measure", {"contacts", "order", "clusters", "backbone"}}},
         Json{{"measure", {"contacts", "order", "clusters", "shear"}}}}) {
     EXPECT_GT(seconds_of(more), 1.1 * usual) << more;
