@@ -116,8 +116,8 @@ struct JamOptions {
   /// the cell relaxes, and with CellShape::free also its shape. Newton's method finds the state.
   Cohesion cohesion;
   CohesionUntil cohesion_until = CohesionUntil::decompression;  ///< stage until which cohesion acts
-  /// Number of training cycles. In each cycle, the packing is decompressed to final_distance and compressed again, before
-  /// the decompression that gives the result. A cycle whose decompression ends for another reason counts too.
+  /// Number of training cycles. In each cycle, the packing is decompressed to final_distance and compressed again,
+  /// before the decompression that gives the result. A cycle whose decompression ends for another reason counts too.
   int cycles = 0;
   int max_steps = 400;                    ///< largest number of entries of `path`, both stages together
   CellShape cell = CellShape::isotropic;  ///< relaxation of the shape of the cell

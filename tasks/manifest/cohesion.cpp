@@ -11,8 +11,8 @@ namespace {
 
 void refuse_other_solids(const JsonPlace& root, const Manifest& manifest) {
   const auto list = root.at("sweep").at("solid");
-  for (std::size_t k = 0; k < manifest.solids.size(); ++k) {
-    for (const auto& kind : manifest.solids[k].kinds()) {
+  for (const auto& mixture : manifest.solids) {
+    for (const auto& kind : mixture.kinds()) {
       if (can_grow(*kind.solid)) continue;
       list.attempt([&] {
         list.refuse_with_remedy(

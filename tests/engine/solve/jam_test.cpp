@@ -121,7 +121,7 @@ TEST(JamTest, NamesAreDistinct) {
   for (int k = 0; k <= static_cast<int>(JamStatus::interrupted); ++k)
     names.insert(to_string(static_cast<JamStatus>(k)));
   EXPECT_EQ(names.size(), enum_names<JamStatus>.size());
-  EXPECT_EQ(names.size(), 10U);
+  EXPECT_EQ(names.size(), 11U);
   EXPECT_EQ(to_string(JamStatus::interrupted), "interrupted");
   EXPECT_EQ(JamResult().status, JamStatus::not_called);
 }
