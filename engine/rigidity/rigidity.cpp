@@ -62,6 +62,18 @@ SoftSpace softest(const RigidityMatrix& matrix, const SoftRows& soft, Index k) {
   return diagonalised(matrix, q);
 }
 
+/// Counts the singular values that are zero. `sigma` has the smallest of them in descending order, and `all` is the
+/// number of all that can differ from zero. Returns the number of zeros in `sigma`.
+Index count(Rigidity& result, const VectorXd& sigma, Index all, Index coordinates) {
+  const Index dropped = (sigma.array() <= result.tolerance).count(), kept = sigma.size() - dropped;
+  result.rank = static_cast<int>(all - dropped);
+  result.self_stress = result.constraints - result.rank;
+  result.floppy = static_cast<int>(coordinates) - result.rank;
+  result.least_kept = kept > 0 ? sigma[kept - 1] : 0;
+  result.largest_dropped = dropped > 0 ? sigma[kept] : 0;
+  return dropped;
+}
+
 }  // namespace
 
 Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& options) {
@@ -74,21 +86,19 @@ Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& o
   const double rounding = static_cast<double>(std::max(constraints, coordinates)) * epsilon * soft.stiffest();
   result.tolerance =
       matrix.imbalance > options.balanced ? rounding : std::max(rounding, options.margin * matrix.imbalance);
-  SoftSpace space;
-  Index dropped = 0;
-  for (Index k = std::max<Index>(0, constraints - (coordinates - 3)) + spare;; k *= 2) {
-    space = softest(matrix, soft, k);
-    dropped = (space.sigma.array() <= result.tolerance).count();
-    if (space.sigma.size() - dropped >= least_beyond || space.sigma.size() == constraints) break;
+  const Index least = std::max<Index>(0, constraints - (coordinates - 3)) + spare;
+  // With so many states of self-stress, all singular values together cost less.
+  if (constraints >= coordinates && least > coordinates && !options.stresses) {
+    count(result, singular_values_of(triangular_factor(MatrixXd(matrix.rows))), coordinates, coordinates);
+    return result;
   }
-  const Index kept = space.sigma.size() - dropped;
-  result.self_stress = static_cast<int>(dropped);
-  result.rank = static_cast<int>(constraints - dropped);
-  result.floppy = static_cast<int>(coordinates) - result.rank;
-  if (kept > 0) result.least_kept = space.sigma[kept - 1];
-  if (dropped > 0) result.largest_dropped = space.sigma[kept];
-  if (options.stresses) result.stresses = space.combinations.rightCols(dropped);
-  return result;
+  SoftSpace space;
+  for (Index k = least;; k *= 2) {
+    space = softest(matrix, soft, k);
+    const Index dropped = count(result, space.sigma, constraints, coordinates);
+    if (options.stresses) result.stresses = space.combinations.rightCols(dropped);
+    if (space.sigma.size() - dropped >= least_beyond || space.sigma.size() == constraints) return result;
+  }
 }
 
 }  // namespace isojam

@@ -43,7 +43,9 @@ struct RigidityOptions {
 /// Martinsson & Tropp 2011), but the same for every matrix of the same size. A singular value counts as zero if it is
 /// at most max(rows, 6N)·ε times an upper bound of the largest singular value, where ε = 2⁻⁵². If the relative force
 /// residual is at most `balanced`, a singular value also counts as zero if it is at most `margin` times this residual.
-/// Throws std::invalid_argument if the rows contain NaN or infinity. The time is about a second for N = 400.
+/// Throws std::invalid_argument if the rows contain NaN or infinity. The time is about a second for N = 400. If there
+/// are more states of self-stress than coordinates, as in a crystal, the rank comes from all singular values, unless a
+/// basis is requested.
 Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& options = {});
 
 }  // namespace isojam
