@@ -109,7 +109,8 @@ void expect_same(const Narrow& narrow, const Wide& wide, const std::string& what
   ASSERT_EQ(narrow.segments, wide.segments) << what;
   EXPECT_EQ(narrow.up, wide.up) << what;
   for (int k = 0; k < narrow.spans; ++k) {
-    const auto &n = narrow.crossing[k], &w = wide.crossing[k];
+    const auto& n = narrow.crossing[k];
+    const auto& w = wide.crossing[k];
     EXPECT_EQ(n.edge / narrow.edge_of_b, w.edge / wide.edge_of_b) << what;
     EXPECT_EQ(n.edge % narrow.edge_of_b, w.edge % wide.edge_of_b) << what;
     EXPECT_TRUE(n.into == w.into && n.out_of == w.out_of) << what;
