@@ -125,7 +125,8 @@ void expect_same(const Narrow& narrow, const Wide& wide, const std::string& what
       EXPECT_TRUE(std::equal(narrow.corner[corner], narrow.corner[corner] + 4, wide.corner[corner])) << what;
   }
   for (int k = 0; k < narrow.segments; ++k) {
-    const auto &n = narrow.segment[k], &w = wide.segment[k];
+    const auto& n = narrow.segment[k];
+    const auto& w = wide.segment[k];
     EXPECT_TRUE(n.face_a == w.face_a && n.face_b == w.face_b && n.from == w.from && n.to == w.to) << what;
     EXPECT_EQ(narrow.hub[n.face_a], wide.hub[n.face_a]) << what;
     EXPECT_EQ(narrow.hub[Narrow::face_of_b + n.face_b], wide.hub[Wide::face_of_b + n.face_b]) << what;
