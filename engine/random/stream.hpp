@@ -8,7 +8,7 @@
 namespace isojam {
 
 /// Purpose of a random stream; it is one element of the key of the stream.
-enum class Purpose : std::uint64_t { placement = 1, bootstrap = 2 };
+enum class Purpose : std::uint64_t { placement = 1, bootstrap = 2, percolation = 3 };
 
 /// A reproducible stream of random bits. It depends only on its key: for example the seed of the manifest, the solid,
 /// the number of particles, the replicate and the purpose. The C++ standard defines the 64-bit Mersenne twister and

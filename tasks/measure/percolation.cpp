@@ -58,8 +58,6 @@ constexpr auto quantities = [] {
 
 /// Draws of random bonds for each state and method. With so many, the standard error of a share is at most 0.035.
 constexpr int draws = 200;
-/// Part of the key of the random stream; any number would do.
-constexpr std::uint64_t key = 47;
 
 /// The face-face contacts of a packing, or the reason why they are unknown.
 struct FaceFace {
@@ -117,7 +115,8 @@ void put_method(Json& state, const Method& method, const Packing& packing, const
   json["bonds"] = bonds.size();
   json["sizes"] = Json::array();
   for (const auto& [size, clusters] : found.sizes) json["sizes"].push_back({size, clusters});
-  RandomStream random{key, static_cast<std::uint64_t>(packing.size()), all.size(), bonds.size()};
+  RandomStream random{static_cast<std::uint64_t>(Purpose::percolation), static_cast<std::uint64_t>(packing.size()),
+                      all.size(), bonds.size()};
   const RandomPercolation null = random_percolation(packing, all, bonds.size(), draws, random);
   put(state, method.S_random, null.S);
   put(state, method.largest_random, null.largest);
