@@ -1,9 +1,9 @@
 #include "engine/analysis/percolation.hpp"
 
-#include <algorithm>
 #include <array>
-#include <string>
-#include <utility>
+#include <cstdint>
+#include <string_view>
+#include <vector>
 
 #include "tasks/measure/shared_parts.hpp"
 #include "tasks/measure/trough_parts.hpp"
