@@ -81,14 +81,15 @@ def summary_page(page, study, data):
 
 
 def main(study, folder):
-    """Command line of a study's page.py. `study` has TITLE, ENTRIES, FILES, BLOCKS, TABLES, CLAIMS and value_of."""
+    """Command line of a study's page.py. `study` has TITLE, ENTRIES, FILES, BLOCKS, TABLES, CLAIMS and value_of. It may
+    have a class Data of its own."""
     parser = argparse.ArgumentParser(description=f"Makes README.md and tables.md of {folder.name} from data.")
     parser.add_argument("--data", type=Path, nargs="*", help="data files; the default is the committed data")
     parser.add_argument("-o", "--out", type=Path, default=folder, help="folder of the pages; the default is the study's")
     parser.add_argument("--check", action="store_true", help="write nothing; a page that differs is an error")
     parser.add_argument("--summary", type=Path, help="another page with the block `summary`, which is made instead")
     arguments = parser.parse_args()
-    data = Data(*(arguments.data or study.FILES))
+    data = getattr(study, "Data", Data)(*(arguments.data or study.FILES))
     source = arguments.summary or folder / "README.md"
     page = source.read_text(encoding="utf-8")
     try:
