@@ -1,4 +1,4 @@
-# Verbs: run test build bench bench-against equilibria paper rigidity reproducibility docs test-asan fuzz polyhedra
+# Verbs: run test build bench bench-against equilibria paper rigidity percolation reproducibility docs test-asan fuzz polyhedra
 # test-slurm test-debian12 test-debian13 package test-packages lint format packages clean. On Debian 12 and 13 each verb
 # first installs the packages that it needs and that are missing.
 #   make lint LINT='engine/solve/jam.cpp'
@@ -63,7 +63,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DISOJAM_NATIVE=ON -DCMAKE_EXPORT_CO
 # and forth between `make run` and `make test` compiles nothing twice.
 CONFIGURE_PROGRAM = $(CONFIGURE) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DISOJAM_TESTS=OFF)
 
-.PHONY: build run test test-asan fuzz test-slurm bench equilibria paper rigidity docs lint format clean
+.PHONY: build run test test-asan fuzz test-slurm bench equilibria paper rigidity percolation docs lint format clean
 .DEFAULT_GOAL := build
 
 # Names other folders where the source folder cannot be written.
@@ -83,10 +83,11 @@ run: build
 	$(BUILD)/isojam run $(EXAMPLE)/manifest.json -o $(RESULTS)
 	@$(BUILD)/isojam report $(RESULTS)
 
-# The studies of examples/paper and examples/rigidity; then the page, its tables and its figures from their results. An
-# interrupted call is resumed. A replicate that failed (exit 1) is counted on the page.
+# The studies of examples/paper, examples/rigidity and examples/percolation; then the page, its tables and its figures
+# from their results. An interrupted call is resumed. A replicate that failed (exit 1) is counted on the page.
 PAPER = n100 n400 n400-tetrahedra n4000 unstable emergence protocol
 RIGIDITY = n50 n64 n200 solids
+PERCOLATION = kept100 kept200 kept400 removed100 removed200 range cubes cycles
 # Measures that an interrupted call left come first, because `run` would compute the whole replicate again.
 studies = @for study in $(1); do \
 	  [ ! -d results/$(2)-$${study\#n}/records ] || $(BUILD)/isojam measure results/$(2)-$${study\#n} >/dev/null || [ $$? = 1 ] || exit 1; \
@@ -119,6 +120,12 @@ rigidity: build
 	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/rigidity/records.json \
 	  $(addprefix rigidity-,$(RIGIDITY:n%=%))
 	$(call page,rigidity,results/rigidity/paper.json results/rigidity/records.json)
+
+percolation: build
+	$(call install,python3 python3-matplotlib python3-scipy)
+	$(call studies,$(PERCOLATION),percolation)
+	@$(PYTHON) -B examples/percolation/gather.py results results/percolation/records.json $(addprefix percolation-,$(PERCOLATION))
+	$(call page,percolation,results/percolation/records.json)
 
 # All that `run` and `test` install, and nothing else: for the layer of an image.
 .PHONY: packages

@@ -38,7 +38,7 @@ def write(path, studies):
     """Writes {name: {..., "replicates": list}} as JSON with one line per replicate, so that diffs are readable."""
     parts = []
     for name, study in rounded(studies).items():
-        head = "".join(f"{json.dumps(key)}: {json.dumps(item)}, " for key, item in study.items() if key != "replicates")
+        head = json.dumps({key: item for key, item in study.items() if key != "replicates"})[:-1]
         lines = ",\n".join(json.dumps(row, separators=(",", ":")) for row in study["replicates"])
-        parts.append(f'"{name}": {{{head}"replicates": [\n{lines}\n]}}')
+        parts.append(f'"{name}": {head}, "replicates": [\n{lines}\n]}}')
     path.write_text("{\n" + ",\n".join(parts) + "\n}\n", encoding="utf-8")

@@ -17,7 +17,6 @@ from estimates import difference_of, estimate_of, larger_chi_squared  # noqa: E4
 from scaling import at  # noqa: E402
 
 SOLIDS = ("tetrahedron", "octahedron", "icosahedron", "dodecahedron")
-EXCLUDED = {"crystalline", "not_balanced"}
 RANGE = 0.1  # range h of all studies but one
 RESAMPLES = 400  # bootstrap samples of the thresholds
 FITTED_BELOW = 0.3  # largest S/N of the states to which the common curve S(Z_ff) is fitted
@@ -31,12 +30,14 @@ class Data:
         studies = {}
         for file in files:
             studies |= json.loads(Path(file).read_text(encoding="utf-8"))
+        self.git = sorted({commit for study in studies.values() for commit in study["git"]})
+        self.excluded = {flag for study in studies.values() for flag in study["exclude"]}
         self.studies = {name: study["replicates"] for name, study in studies.items()}
         self.all = [replicate for replicates in self.studies.values() for replicate in replicates]
 
     def of(self, study=None, **values):
         chosen = self.all if study is None else self.studies.get(study, [])
-        return [r for r in chosen if r["status"] == "done" and not EXCLUDED & set(r["flags"])
+        return [r for r in chosen if r["status"] == "done" and not self.excluded & set(r["flags"])
                 and all(r[key] == value for key, value in values.items())]
 
     def kept(self, solid, particles, w, h=RANGE):
@@ -107,7 +108,9 @@ def collapse(data, particles, method="fit"):
         groups.setdefault(group, []).append(residual)
     offsets = {group: estimate_of(residuals) for group, residuals in groups.items() if len(residuals) > 5}
     deviations = [e["mean"] for e in offsets.values()]
-    return {"curve": curve, "offsets": offsets, "states": len(chosen),
+    # One state per packing: only these groups have independent states.
+    single = [e for (_, _, until), e in offsets.items() if until == "end"]
+    return {"curve": curve, "offsets": offsets, "states": len(chosen), "chi_squared": chi_squared(single),
             "within": float(numpy.std(log_s - curve(z))), "between": float(numpy.std(deviations)) if deviations else None}
 
 
@@ -140,18 +143,42 @@ def winding_pairs(replicates, method, of_random):
     return made
 
 
+def interval_of(values):
+    """Limits of the 95 % confidence interval from values of bootstrap samples; None if more than a tenth are missing."""
+    known = sorted(value for value in values if value is not None)
+    if len(known) < 0.9 * len(values):
+        return None
+    return known[round(0.025 * (len(known) - 1))], known[round(0.975 * (len(known) - 1))]
+
+
 def threshold_of(replicates, method="fit", of_random=False):
-    """The threshold with its 95 % confidence interval (percentiles of a bootstrap over replicates)."""
+    """The threshold with its 95 % confidence interval, from a bootstrap over replicates."""
     pairs = winding_pairs(replicates, method, of_random)
     found = threshold(pairs)
     if not found:
         return None
     generator = random.Random(len(pairs))
-    sample = sorted(t[0] for t in (threshold(generator.choices(pairs, k=len(pairs))) for _ in range(RESAMPLES)) if t)
-    if len(sample) < 0.9 * RESAMPLES:
-        return None
-    return {"mean": found[0], "width": found[1], "n": len(pairs),
-            "low": sample[int(0.025 * len(sample))], "high": sample[int(0.975 * len(sample)) - 1]}
+    samples = [threshold(generator.choices(pairs, k=len(pairs))) for _ in range(RESAMPLES)]
+    limits = interval_of([sample and sample[0] for sample in samples])
+    return {"mean": found[0], "width": found[1], "n": len(pairs), "low": limits[0], "high": limits[1]} if limits else None
+
+
+def crossing_of(smaller, larger, method="fit", of_random=False):
+    """Z_ff where the logistic curves of two sizes have the same probability, with its 95 % confidence interval; None
+    unless nine tenths of the bootstrap samples have a steeper curve for the larger size."""
+    sides = [winding_pairs(replicates, method, of_random) for replicates in (smaller, larger)]
+
+    def crossing(samples):
+        curves = [threshold(sample) for sample in samples]
+        if None in curves or curves[1][1] >= curves[0][1]:
+            return None
+        (middle, width), (other, narrower) = curves
+        return (other * width - middle * narrower) / (width - narrower)
+
+    found, generator = crossing(sides), random.Random(len(sides[0]))
+    limits = interval_of([crossing([generator.choices(side, k=len(side)) for side in sides]) for _ in range(RESAMPLES)]
+                         if found is not None else [None])
+    return {"mean": found, "low": limits[0], "high": limits[1]} if limits else None
 
 
 def all_of_size(data, particles, solids=SOLIDS):

@@ -1,9 +1,9 @@
 """Extracts the data of the page: python3 gather.py RESULTS FILE STUDY...
 
-Writes FILE from the records in the results directories RESULTS/STUDY. For each replicate, it has the settings, the density
-and the columns of its states. Numbers are rounded as in records.py. Incomplete studies count with the replicates that they
-have."""
+Writes FILE from the records and tables in the results directories RESULTS/STUDY. For each replicate, it has the settings,
+the density and the columns of its states. Numbers are rounded as in records.py."""
 
+import json
 import sys
 from pathlib import Path
 
@@ -39,9 +39,16 @@ def replicate_of(record):
     return {**made, "phi": density, "states": states, **({"cycles": cycles} if cycles else {})}
 
 
+def study_of(directory):
+    records = [record for _, record in records_of(directory)]
+    tables = json.loads((directory / "tables.json").read_text(encoding="utf-8"))
+    return {"git": sorted({record["provenance"]["git"] for record in records}), "exclude": tables["exclude"],
+            "replicates": [replicate_of(record) for record in records]}
+
+
 def main(results, file, *studies):
-    write(Path(file), {study: {"replicates": [replicate_of(record) for _, record in records_of(Path(results) / study)]}
-                       for study in studies})
+    Path(file).parent.mkdir(parents=True, exist_ok=True)
+    write(Path(file), {study: study_of(Path(results) / study) for study in studies})
 
 
 if __name__ == "__main__":
