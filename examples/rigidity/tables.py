@@ -11,6 +11,7 @@ from text import counted, interval, number, significant, table
 DISTANCES = (0.04, 0.02, 0.01, 0.005, 0.0025, 0.001, None)
 TILTS_AT = 0.001  # Δφ at which modes and tilts are compared: nearer to jamming, softest modes are unresolved
 MODES = "modes per particle with less than half from"
+FITTED = {"face_face": "cut_ff", "edge_face": "cut_ef"}
 COLUMNS = [f"Δφ = {d}" if d else "nearest" for d in DISTANCES]
 
 
@@ -54,6 +55,11 @@ def main_table(data):
     return table(["nearest jamming", *SOLIDS], rows)
 
 
+def density_text(density, particles):
+    """A density per particle and decade. One contact of all particles per decade is the smallest that is measured."""
+    return significant(density, 2) if density * particles > 1 else f"< {significant(1 / particles, 1)}"
+
+
 def troughs(data):
     rows = []
     for solid in SOLIDS:
@@ -65,13 +71,14 @@ def troughs(data):
                 cells = []
                 for kind in ("face_face", "edge_face"):
                     found = entry[kind]
-                    known = "cutoff" in found
+                    known, fitted = "cutoff" in found, data.at(solid, n, FITTED[kind], distance)
                     cells += [f"{number(math.log10(found['cutoff']), 1)} ({number(math.log10(found['low']), 1)} … "
                               f"{number(math.log10(found['high']), 1)})" if known else "undecided",
-                              significant(found["density"], 2) if known else "–"]
+                              density_text(found["density"], n * entry["replicates"]) if known else "–",
+                              number(math.log10(fitted["mean"]), 1) if fitted else "–"]
                 rows.append([f"{solid} {n}", str(distance or "nearest"), str(entry["replicates"]), *cells])
-    return table(["solid, N", "Δφ", "packings", "θ_ff: log10 of the cut-off (edges)", "density",
-                  "θ_ef: log10 of the cut-off (edges)", "density"], rows)
+    return table(["solid, N", "Δφ", "packings", "θ_ff: log10 of the cut-off (edges)", "density", "by fit",
+                  "θ_ef: log10 of the cut-off (edges)", "density", "by fit"], rows)
 
 
 def counts(data):
@@ -179,7 +186,8 @@ def cost(data):
 
 TABLES = (
     ("Troughs in the densities of log θ", """Cut-offs and edges in radians, and the density at the cut-off per particle
-     and decade. *Undecided* means that the density has no significant trough.""", troughs),
+     and decade. *Undecided* means that the density has no significant trough. *By fit* is log10 of the mean cut-off of the
+     paper's fit, for comparison.""", troughs),
     ("Missing and redundant constraints", """m is the number of missing constraints per particle, (6N − 3 − rank)/N. S is
      the number of states of self-stress. Classes are by fit, unless the quantity names the trough.""", counts),
     ("Effect of the fitted cut-offs", "Both fitted cut-offs are halved or doubled.", cutoffs),
