@@ -8,7 +8,7 @@ sys.path.insert(0, str(HERE.parent / "page"))
 
 import pages  # noqa: E402
 import values  # noqa: E402
-from counting import EDGES, FAR, drawn_size  # noqa: E402
+from counting import EDGES, FAR, drawn_size, limit_at_jamming  # noqa: E402
 from data import SOLIDS, SOLIDS_64  # noqa: E402
 from tables import TABLES, TILTS_AT, main_table, other_solids  # noqa: E402, F401
 from text import number  # noqa: E402
@@ -49,12 +49,22 @@ def solids_end(data, column, end):
     return number(min(means) if end == "least" else max(means), 1) if means else "–"
 
 
+def limits_by_trough(data):
+    """Linear limits of C by trough as Δφ → 0, one for each solid, N = 100."""
+    return [limit_at_jamming(data, solid, 100, "C_trough")[0][0, 1.0] for solid in SOLIDS]
+
+
+def limit_errors(data, end):
+    errors = [limit["half_width"] for limit in limits_by_trough(data)]
+    return number(min(errors) if end == "least" else max(errors), 2)
+
+
 def missing_solids(data):
     return [s for s in other_solids(data) if len(data.kept_of(SOLIDS_64, s)) < 3]
 
 
 value_of = values.value_of({
-    **values.VALUES, "exponent": exponent_end, "among": among, "solids": solids_end,
+    **values.VALUES, "exponent": exponent_end, "among": among, "solids": solids_end, "limit_errors": limit_errors,
     "size": lambda data: str(drawn_size(data)), "isostatic": lambda data: values.against_isostatic(
         data, "trough", drawn_size(data)),
     "drawn": lambda data, how, solid: values.constraints(data, how, solid, drawn_size(data))})
@@ -83,8 +93,11 @@ CLAIMS = {
     "There is about one stiff tilt per edge-face contact, and two per face-face contact": lambda data: all(
         abs(data.at(s, 100, "stiff_tilts_ff", TILTS_AT)["mean"] - 2) < 0.3
         and abs(data.at(s, 100, "stiff_tilts_ef", TILTS_AT)["mean"] - 1) < 0.15 for s in SOLIDS),
-    "C = 12 − 6/N − 2m + 2S/N in every state": identity_holds,
-    "By trough, constraints are missing in octahedra, icosahedra and dodecahedra, and redundant in tetrahedra.":
+    "However contacts are classified, C = 12 − 6/N − 2m + 2S/N": identity_holds,
+    "The limits for Δφ → 0 agree with them within ±": lambda data: all(
+        abs(limit["mean"] - data.constraints(s, drawn_size(data), "trough")["mean"]) < limit["half_width"]
+        for s, limit in zip(SOLIDS, limits_by_trough(data))),
+    "Constraints are then missing in octahedra, icosahedra and dodecahedra, and redundant in tetrahedra.":
         lambda data: all(data.nearest(s, 100, "missing_trough")["mean"] > 0.03 for s in SOLIDS[1:])
         and data.nearest(SOLIDS[0], 100, "redundant_trough")["mean"] > 0.05,
     "⟨ω_l⟩ follows √G more closely than √K": lambda data: max(

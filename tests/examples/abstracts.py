@@ -16,7 +16,7 @@ import subprocess
 import sys
 
 import numpy
-from scipy import optimize
+from scipy import optimize, stats
 
 SOLIDS = ("tetrahedron", "octahedron", "icosahedron", "dodecahedron")
 BETWEEN = {"theta_ff": (-4.4, -1.4), "theta_ef": (-4.4, -2.0)}  # log10 of the angles between which a trough may be
@@ -70,7 +70,8 @@ def row_of(record, varied):
            "setting": {key: spec["protocol"][key] for key in (
                "target_before_relaxation", "consolidation_step", "consolidation_evaluations")}}
     row["states"] = {"phi": [s["phi"] for s in states], "Z": [s["contacts"]["Z"] for s in states],
-                     "E": [s["energy_per_particle"] for s in states]}
+                     "E": [s["energy_per_particle"] for s in states],
+                     "C_trough": [s["contacts"].get("trough", {}).get("C") for s in states]}
     modes = [s.get("prestress", {}).get("modes", {}) for s in states]
     if any(modes):
         row["states"]["held_by_second"] = [m.get("held_by_second") for m in modes]
@@ -185,13 +186,29 @@ def paper_numbers(rows, pooled, size):
             ("shift, least", low, 0.00051), ("shift, greatest", high, 0.00051)]
 
 
+def limit_error(rows, solid):
+    """Half the width of the 95 % interval of the linear limit of C by trough as Δφ → 0, by a jackknife over packings."""
+    points = [[(p - r["phi_j"], c) for p, c in zip(r["states"]["phi"], r["states"].get("C_trough", [])) if c is not None]
+              for r in of(rows, solid, 100)]
+    inside = [some for some in ([p for p in packing if 0 <= p[0] < 0.01] for packing in points) if some]
+
+    def limit(packings):
+        return numpy.polyfit(*numpy.array([p for packing in packings for p in packing]).T, 1)[1]
+
+    n = len(inside)
+    left_out = numpy.array([limit(inside[:i] + inside[i + 1:]) for i in range(n)])
+    return stats.t.ppf(0.975, n - 1) * numpy.sqrt((n - 1) * left_out.var())
+
+
 def rigidity_numbers(rows, pooled, size):
     held = [at_all(rows, s, "held_by_second") for s in SOLIDS[1:]]
     left = [at_all(rows, s, "prestress_10") for s in SOLIDS[1:]]
     return [("Δφ", 0.001, 0), ("normals below half, least", min(held), 0.051),
             ("normals below half, greatest", max(held), 0.051),
             ("modes per particle", 6, 0), ("modes left", max(left), 0.0051), ("12", 12, 0), ("6", 6, 0), ("2", 2, 0),
-            ("2", 2, 0), *((f"C by trough, {s}", constraints_by_trough(rows, pooled, s, size), 0.12) for s in SOLIDS)]
+            ("2", 2, 0), *((f"C by trough, {s}", constraints_by_trough(rows, pooled, s, size), 0.12) for s in SOLIDS),
+            ("0", 0, 0), ("error of the limit, least", min(limit_error(rows, s) for s in SOLIDS), 0.03),
+            ("error of the limit, greatest", max(limit_error(rows, s) for s in SOLIDS), 0.08)]
 
 
 def abstract_of(readme):
