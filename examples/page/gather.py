@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy
 
 from data import EMERGENCE, LARGE, NEGATIVE, SOLIDS_64
-from records import found, records_of, write
+from records import bin_of, cells_of, constraints_with, found, records_of, write
 
 # Column of a state: where it is in the record.
 COLUMNS = {
@@ -56,32 +56,12 @@ EMERGENCE_AT = (0.32, 0.24, 0.16, 0.12, 0.08, 0.04)  # Δφ
 NEAR = 1.25  # factor between two values of Δφ that count as the same
 
 
-def bin_of(cutoff, width):
-    return math.floor(math.log10(cutoff) / width + 1e-9)
-
-
-def counts_below(numbers, end):
-    """Number of contacts in the bins below `end`."""
-    return sum(count for i, count in enumerate(numbers["counts"], numbers["first"]) if i < end)
-
-
 def constraints_by_gap(state, particles):
-    """C with the cut-offs in the gaps of the angles, from the histogram; None without both gaps. A cut-off within an
-    occupied bin moves to the lower edge of the bin."""
-    bins = found(state, "contacts/angle_bins")
+    """C with the cut-offs in the gaps of the angles; None without both gaps."""
     gaps = [found(state, f"contacts/{kind}_gap") for kind in ("face_face", "edge_face")]
-    if not bins or any(found(gap, "verdict") != "separated" for gap in gaps):
+    if any(found(gap, "verdict") != "separated" for gap in gaps):
         return None
-    ff, ef = (bin_of(gap["cutoff"], bins["width"]) for gap in gaps)
-    flat = counts_below(bins["face_face"], ff)
-    edges = counts_below(bins["edge_face"], ef) - sum(n for a, b, n in cells_of(bins) if a < ff and b < ef)
-    # Without an edge-face contact, the gap of θ_ef is between face-face contacts and all others.
-    return state["contacts"]["Z"] + 2 * (2 * flat + edges) / particles if edges else None
-
-
-def cells_of(bins):
-    """Triples of a bin of θ_ff, a bin of θ_ef and the number of contacts with both."""
-    return zip(*[iter(bins["cells"])] * 3)
+    return constraints_with(state, particles, *(gap["cutoff"] for gap in gaps))
 
 
 def columns_of(states, particles):

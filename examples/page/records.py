@@ -1,6 +1,7 @@
 """Reads the records of a results directory, and writes the rounded values that a page uses, one line per replicate."""
 
 import json
+import math
 
 
 def records_of(directory):
@@ -20,6 +21,33 @@ def found(value, place):
         else:
             return None
     return value
+
+
+def bin_of(cutoff, width):
+    return math.floor(math.log10(cutoff) / width + 1e-9)
+
+
+def counts_below(numbers, end):
+    """Number of contacts in the bins below `end`."""
+    return sum(count for i, count in enumerate(numbers["counts"], numbers["first"]) if i < end)
+
+
+def cells_of(bins):
+    """Triples of a bin of θ_ff, a bin of θ_ef and the number of contacts with both."""
+    return zip(*[iter(bins["cells"])] * 3)
+
+
+def constraints_with(state, particles, face_face, edge_face):
+    """C with these cut-offs, from the histogram of the angles; None without a histogram or an edge-face contact.
+    A cut-off within an occupied bin moves to the lower edge of the bin."""
+    bins = found(state, "contacts/angle_bins")
+    if not bins:
+        return None
+    ff, ef = (bin_of(cutoff, bins["width"]) for cutoff in (face_face, edge_face))
+    flat = counts_below(bins["face_face"], ff)
+    edges = counts_below(bins["edge_face"], ef) - sum(n for a, b, n in cells_of(bins) if a < ff and b < ef)
+    # Without an edge-face contact, the gap of θ_ef is between face-face contacts and all others.
+    return state["contacts"]["Z"] + 2 * (2 * flat + edges) / particles if edges else None
 
 
 def rounded(value, digits=4):
