@@ -87,7 +87,7 @@ run: build
 # from their results. An interrupted call is resumed. A replicate that failed (exit 1) is counted on the page.
 PAPER = n100 n400 n400-tetrahedra n4000 unstable emergence protocol
 RIGIDITY = n50 n64 n200 solids
-PERCOLATION = kept100 kept200 kept400 removed100 removed200 range cubes cycles
+PERCOLATION = kept100 removed100 tetrahedra kept200 removed200 cycles range cubes kept400 tetrahedra400
 # Measures that an interrupted call left come first, because `run` would compute the whole replicate again.
 studies = @for study in $(1); do \
 	  [ ! -d results/$(2)-$${study\#n}/records ] || $(BUILD)/isojam measure results/$(2)-$${study\#n} >/dev/null || [ $$? = 1 ] || exit 1; \
@@ -124,7 +124,7 @@ rigidity: build
 percolation: build
 	$(call install,python3 python3-matplotlib python3-scipy)
 	$(call studies,$(PERCOLATION),percolation)
-	@$(PYTHON) -B examples/percolation/gather.py results results/percolation/records.json $(addprefix percolation-,$(PERCOLATION))
+	@$(PYTHON) -B examples/percolation/gather.py $(BUILD)/isojam results results/percolation/records.json $(addprefix percolation-,$(PERCOLATION))
 	$(call page,percolation,results/percolation/records.json)
 
 # All that `run` and `test` install, and nothing else: for the layer of an image.

@@ -2,12 +2,10 @@
 
 import json
 import math
-import random
 import sys
 from pathlib import Path
 
 import numpy
-from scipy.optimize import minimize
 from scipy.special import expit
 
 HERE = Path(__file__).resolve().parent
@@ -18,7 +16,10 @@ from scaling import at  # noqa: E402
 
 SOLIDS = ("tetrahedron", "octahedron", "icosahedron", "dodecahedron")
 RANGE = 0.1  # range h of all studies but one
-RESAMPLES = 400  # bootstrap samples of the thresholds
+AFTER = (0.02, 0.01, 0.007)  # Δφ of the states after the cohesion was switched off
+AT = 0.01  # Δφ at which packings without cohesion are compared
+NO_COHESION = 1e-12  # strength of the packings that count as packings without cohesion
+RESAMPLES = 200  # bootstrap samples of the thresholds
 FITTED_BELOW = 0.3  # largest S/N of the states to which the common curve S(Z_ff) is fitted
 
 
@@ -45,13 +46,16 @@ class Data:
         return self.of(solid=solid, particles=particles, w=w, h=h, until="end")
 
     def removed(self, solid, particles, w):
-        """Packings that were decompressed without cohesion."""
-        name = f"percolation-removed{particles}"
-        return self.of(name, solid=solid, w=w)
+        """Packings that were decompressed without cohesion, which acted during compression with strength w."""
+        return [r for r in self.of(solid=solid, particles=particles, w=w, until="decompression") if "cycles" not in r]
+
+    def untreated(self, solid, particles):
+        """Packings without cohesion."""
+        return self.removed(solid, particles, NO_COHESION)
 
     def strengths(self, until, particles):
         return sorted({r["w"] for r in self.all if r["until"] == until and r["particles"] == particles
-                       and r["h"] == RANGE and r["solid"] in SOLIDS and r["w"] > 0})
+                       and r["h"] == RANGE and r["solid"] in SOLIDS and r["w"] > NO_COHESION})
 
 
 def last(replicate, column):
@@ -62,6 +66,13 @@ def last(replicate, column):
 
 def mean(replicates, column):
     return estimate_of([r["phi"] if column == "phi_0" else last(r, column) for r in replicates])
+
+
+def constraints(replicates):
+    """C by fit; its systematic error is half the difference between doubled and halved cut-offs."""
+    central, half, double = (mean(replicates, name) for name in ("C", "C_half", "C_double"))
+    known = central and half and double
+    return {**central, "systematic": 0.5 * abs(double["mean"] - half["mean"])} if known else central
 
 
 def values_at(replicates, column, distance):
@@ -79,8 +90,11 @@ def values_at(replicates, column, distance):
 
 
 def difference_at(data, solid, particles, w, distance, column="Z_ff_fit"):
-    """Difference of the means after cohesion of strength w and without cohesion, at a distance to jamming."""
-    pair = [values_at(data.removed(solid, particles, strength), column, distance) for strength in (0, w)]
+    """Difference of the means after cohesion of strength w and without cohesion, at a distance to jamming. If w is
+    None, the packings of all strengths count together."""
+    strengths = data.strengths("decompression", particles) if w is None else [w]
+    after = [r for strength in strengths for r in data.removed(solid, particles, strength)]
+    pair = [values_at(packings, column, distance) for packings in (data.untreated(solid, particles), after)]
     return difference_of(*pair) if min(map(len, pair)) > 2 else None
 
 
@@ -98,8 +112,8 @@ def points(data, particles, method="fit"):
 
 
 def collapse(data, particles, method="fit"):
-    """Fits ln S by a cubic polynomial of Z_ff, for states with S below FITTED_BELOW·N. Compares the mean residual of each
-    group with its standard error, where the states of a group count as independent only across replicates."""
+    """Fits ln S by a cubic polynomial of Z_ff, for states with S below FITTED_BELOW·N. Compares the mean residual of
+    each group with its standard error, where the states of a group count as independent only across replicates."""
     chosen = [p for p in points(data, particles, method) if p[1] < FITTED_BELOW * particles]
     z, log_s = numpy.array([p[0] for p in chosen]), numpy.log([p[1] for p in chosen])
     curve = numpy.polynomial.Polynomial.fit(z, log_s, 3)
@@ -111,25 +125,35 @@ def collapse(data, particles, method="fit"):
     # One state per packing: only these groups have independent states.
     single = [e for (_, _, until), e in offsets.items() if until == "end"]
     return {"curve": curve, "offsets": offsets, "states": len(chosen), "chi_squared": chi_squared(single),
-            "within": float(numpy.std(log_s - curve(z))), "between": float(numpy.std(deviations)) if deviations else None}
+            "within": float(numpy.std(log_s - curve(z))), "between": float(numpy.std(deviations))}
 
 
 # ---- Thresholds ----------------------------------------------------------------------------------------------------
-def threshold(pairs):
-    """Z_ff at which the probability of winding is 1/2, by logistic regression with outcomes from 0 to 1; None unless
-    there are outcomes on both sides."""
-    if len(pairs) < 8 or not any(y > 0.5 for _, y in pairs) or not any(y < 0.5 for _, y in pairs):
-        return None
-    z, y = numpy.array([p[0] for p in pairs]), numpy.array([p[1] for p in pairs])
+def logistic_curves(pairs):
+    """Logistic curves p = 1/(1 + exp((m − z)/s)) of pairs (z, outcome from 0 to 1): arrays of m and of s, for the pairs
+    themselves and then for bootstrap samples of them. They are NaN for a sample without outcomes on both sides of 1/2.
 
-    def loss(parameters):
-        middle, log_width = parameters
-        p = numpy.clip(expit((z - middle) / math.exp(log_width)), 1e-9, 1 - 1e-9)
-        # The weak prior keeps the width finite if the outcomes are separated.
-        return -numpy.sum(y * numpy.log(p) + (1 - y) * numpy.log(1 - p)) + 0.5 * (log_width + 1.5) ** 2
-
-    best = minimize(loss, [float(numpy.median(z)), -1.5], method="Nelder-Mead")
-    return float(best.x[0]), math.exp(float(best.x[1]))
+    Jeffreys' prior keeps the curves finite where the outcomes are separated (D. Firth, Biometrika 80, 27, 1993)."""
+    z, y = numpy.array(pairs).T
+    middle, spread = z.mean(), z.std() or 1.0
+    x, n = (z - middle) / spread, len(z)
+    draws = numpy.random.default_rng(n).integers(n, size=(RESAMPLES, n))
+    counts = numpy.stack([numpy.ones(n), *(numpy.bincount(draw, minlength=n) for draw in draws)])
+    b0, b1 = numpy.zeros(len(counts)), numpy.zeros(len(counts))
+    for _ in range(40):
+        p = expit(b0[:, None] + b1[:, None] * x)
+        w = counts * p * (1 - p)
+        s0, s1, s2 = w.sum(1), w @ x, w @ (x * x)
+        determinant = s0 * s2 - s1 * s1
+        hat = p * (1 - p) * (s2[:, None] - 2 * s1[:, None] * x + s0[:, None] * x * x) / determinant[:, None]
+        score = counts * (y - p + hat * (0.5 - p))
+        u0, u1 = score.sum(1), score @ x
+        step = numpy.stack([s2 * u0 - s1 * u1, s0 * u1 - s1 * u0]) / determinant
+        step *= numpy.minimum(1, 2 / numpy.maximum(numpy.abs(step).max(0), 1e-300))
+        b0, b1 = b0 + step[0], b1 + step[1]
+    sides = (counts @ (y > 0.5) > 0) & (counts @ (y < 0.5) > 0) & (b1 > 0)
+    b1 = numpy.where(sides, b1, numpy.nan)
+    return middle - spread * b0 / b1, spread / b1
 
 
 def winding_pairs(replicates, method, of_random):
@@ -144,45 +168,47 @@ def winding_pairs(replicates, method, of_random):
 
 
 def interval_of(values):
-    """Limits of the 95 % confidence interval from values of bootstrap samples; None if more than a tenth are missing."""
-    known = sorted(value for value in values if value is not None)
-    if len(known) < 0.9 * len(values):
+    """The first value with the 95 % confidence interval from the others, the bootstrap samples; None if the first or
+    more than a tenth of the others are NaN."""
+    known = numpy.sort(values[1:][~numpy.isnan(values[1:])])
+    if numpy.isnan(values[0]) or len(known) < 0.9 * (len(values) - 1):
         return None
-    return known[round(0.025 * (len(known) - 1))], known[round(0.975 * (len(known) - 1))]
+    low, high = (float(known[round(share * (len(known) - 1))]) for share in (0.025, 0.975))
+    return {"mean": float(values[0]), "low": low, "high": high}
 
 
 def threshold_of(replicates, method="fit", of_random=False):
-    """The threshold with its 95 % confidence interval, from a bootstrap over replicates."""
+    """Z_ff at which half of the packings percolate."""
     pairs = winding_pairs(replicates, method, of_random)
-    found = threshold(pairs)
-    if not found:
-        return None
-    generator = random.Random(len(pairs))
-    samples = [threshold(generator.choices(pairs, k=len(pairs))) for _ in range(RESAMPLES)]
-    limits = interval_of([sample and sample[0] for sample in samples])
-    return {"mean": found[0], "width": found[1], "n": len(pairs), "low": limits[0], "high": limits[1]} if limits else None
+    return interval_of(logistic_curves(pairs)[0]) if len(pairs) > 7 else None
 
 
 def crossing_of(smaller, larger, method="fit", of_random=False):
-    """Z_ff where the logistic curves of two sizes have the same probability, with its 95 % confidence interval; None
-    unless nine tenths of the bootstrap samples have a steeper curve for the larger size."""
+    """Z_ff where the logistic curves of two sizes have the same probability. There is none unless nine tenths of the
+    bootstrap samples have a steeper curve for the larger size."""
     sides = [winding_pairs(replicates, method, of_random) for replicates in (smaller, larger)]
-
-    def crossing(samples):
-        curves = [threshold(sample) for sample in samples]
-        if None in curves or curves[1][1] >= curves[0][1]:
-            return None
-        (middle, width), (other, narrower) = curves
-        return (other * width - middle * narrower) / (width - narrower)
-
-    found, generator = crossing(sides), random.Random(len(sides[0]))
-    limits = interval_of([crossing([generator.choices(side, k=len(side)) for side in sides]) for _ in range(RESAMPLES)]
-                         if found is not None else [None])
-    return {"mean": found, "low": limits[0], "high": limits[1]} if limits else None
+    if min(map(len, sides)) < 8:
+        return None
+    (middle, width), (other, narrower) = map(logistic_curves, sides)
+    steeper = numpy.where(width > narrower, width - narrower, numpy.nan)
+    return interval_of((other * width - middle * narrower) / steeper)
 
 
 def all_of_size(data, particles, solids=SOLIDS):
     return [r for r in data.of(particles=particles, h=RANGE) if r["solid"] in solids]
+
+
+def branching_near(data, particles, z, of_random=False):
+    """Mean branching ratio of the packings with Z_ff by fit within 0.15 of z."""
+    name = "branching_random" if of_random else "branching"
+    near = [r for r in all_of_size(data, particles) if abs((last(r, "Z_ff_fit") or 0) - z) < 0.15]
+    return estimate_of([r.get(name) for r in near])
+
+
+def loops_near(data, particles, z):
+    """Share of the face-face contacts that close a loop, in the packings with Z_ff by fit within 0.15 of z."""
+    near = [r for r in all_of_size(data, particles) if abs((last(r, "Z_ff_fit") or 0) - z) < 0.15 and "loops" in r]
+    return sum(r["loops"] for r in near) / sum(r["bonds"] for r in near)
 
 
 def excess(data, particles, method="fit"):

@@ -1,5 +1,6 @@
 """Makes README.md and tables.md: python3 page.py [--data FILE...] [-o OUT] [--check]"""
 
+import math
 import sys
 from pathlib import Path
 
@@ -7,54 +8,180 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "page"))
 
 import pages  # noqa: E402
-from analysis import SOLIDS, Data, collapse, difference_at, mean, threshold_of, all_of_size  # noqa: E402
-from marks import PageError  # noqa: E402
-from tables import TABLES, main_table, remaining  # noqa: E402, F401
+import values  # noqa: E402
+from analysis import (  # noqa: E402, F401
+    AT, SOLIDS, Data, all_of_size, branching_near, chi_squared, collapse, constraints, difference_at,
+    last, loops_near, mean, threshold_of, values_at)
+from estimates import difference_of, estimate_of  # noqa: E402
+from tables import METHODS, TABLES, change_table, main_table, sizes_table  # noqa: E402, F401
 from text import interval, number, significant  # noqa: E402
 
 TITLE = "Cohesion and the percolation of face-face contacts"
 FILES = (HERE / "data/records.json",)
 ENTRIES = """An entry a ± b (n) is the mean a over n packings and half the width b of its 95 % confidence interval
 (Student t). A dash means that the value is unknown."""
-BLOCKS = {"main": main_table}
+BLOCKS = {"main": main_table, "sizes": sizes_table, "memory": change_table}
 
 
 def kept(data, column, solid, w, particles="100"):
-    return interval(mean(data.kept(solid, int(particles), float(w)), column))
+    """Mean of a column at zero pressure."""
+    return number(mean(data.kept(solid, int(particles), float(w)), column)["mean"], 2)
 
 
-def threshold_text(data, particles, null="", method="fit"):
-    found = threshold_of(all_of_size(data, int(particles)), method, null == "random")
-    return f"{number(found['mean'], 2)} ({number(found['low'], 2)} … {number(found['high'], 2)})" if found else "–"
+def without(data, column, solid):
+    """Mean of a column without cohesion, N = 100, at Δφ = AT."""
+    return number(estimate_of(values_at(data.untreated(solid, 100), column, AT))["mean"], 2)
 
 
-def memory(data, which, particles, distance):
-    chi_squared, freedom, probability = remaining(data, int(particles), float(distance))
-    return {"chi": number(chi_squared, 1), "freedom": str(freedom), "p": significant(probability, 2)}[which]
+def solid_threshold(data, solid, null=""):
+    """Threshold of one solid, N = 100, without its interval."""
+    return number(threshold_of(all_of_size(data, 100, (solid,)), "fit", null == "random")["mean"], 2)
 
 
-def largest_memory(data, particles, distance):
-    found = [d["mean"] for solid in SOLIDS for w in data.strengths("decompression", int(particles))
-             if (d := difference_at(data, solid, int(particles), w, float(distance)))]
-    return number(max(found), 2) if found else "–"
+def threshold_error(data, particles, null=""):
+    """The threshold ± half the width of its interval."""
+    found = threshold_of(all_of_size(data, int(particles)), "fit", null == "random")
+    return interval({**found, "half_width": 0.5 * (found["high"] - found["low"])})
+
+
+def memory(data, solid, particles, w="all"):
+    """Difference of Z_ff from packings without cohesion, at Δφ = AT."""
+    return interval(difference_at(data, solid, int(particles), None if w == "all" else float(w), AT))
+
+
+def forgotten(data, particles):
+    """Probability of a larger χ² of the differences of all solids but tetrahedra, which are independent."""
+    differences = [difference_at(data, solid, int(particles), None, AT) for solid in SOLIDS[1:]]
+    return significant(chi_squared(differences)[2], 1)
+
+
+def ratio(data, solid, w):
+    """Z_ff at zero pressure divided by Z_ff without cohesion."""
+    return number(float(kept(data, "Z_ff_fit", solid, w)) / float(without(data, "Z_ff_fit", solid)), 1)
 
 
 def misfit(data, which, particles="100"):
-    return number(collapse(data, int(particles))[which], 2)
+    """Factor by which S of a group (`between`) or of one state (`within`) deviates from the common curve, one standard
+    deviation; or χ² of the groups."""
+    found = collapse(data, int(particles))
+    if which in ("chi_squared", "freedom"):
+        return number(found["chi_squared"][("chi_squared", "freedom").index(which)], 0)
+    return number(math.exp(found[which]), 2)
 
 
-FUNCTIONS = {"kept": kept, "threshold": threshold_text, "memory": memory, "largest_memory": largest_memory,
-             "misfit": misfit}
+def methods(data, w):
+    """Largest difference between the means of Z_ff by fit, gap and trough, N = 100, without icosahedra."""
+    ranges = []
+    for solid in SOLIDS:
+        found = [mean(data.kept(solid, 100, float(w)), f"Z_ff_{m}") for m in METHODS]
+        means = [e["mean"] for e in found if e and e["n"] > 3]
+        ranges.append(max(means) - min(means) if solid != "icosahedron" else 0)
+    return number(max(ranges), 2)
 
 
-def value_of(data, words):
-    name, *arguments = words.split()
-    if name not in FUNCTIONS:
-        raise PageError(f"there is no value named {words}")
-    return FUNCTIONS[name](data, *arguments)
+def density_loss(data, solid, w="1e-6"):
+    """φ_J without cohesion minus φ_0, N = 100."""
+    pair = data.kept(solid, 100, float(w)), data.untreated(solid, 100)
+    return interval(difference_of(*([r["phi"] for r in packings] for packings in pair)))
 
 
-CLAIMS = {}
+def weakest(data, solid):
+    """C at zero pressure with w = 1e-6, N = 100."""
+    return constraints(data.kept(solid, 100, 1e-6))
+
+
+def constraints_text(data, solid):
+    found = weakest(data, solid)
+    return f"{number(found['mean'], 1)} ± {number(found['half_width'] + found['systematic'], 1)}"
+
+
+def others(data, which):
+    """Least or greatest C of all solids but tetrahedra, or the largest error."""
+    found = [weakest(data, solid) for solid in SOLIDS[1:]]
+    means = [e["mean"] for e in found]
+    return number({"least": min(means), "greatest": max(means),
+                   "error": max(e["half_width"] + e["systematic"] for e in found)}[which], 1)
+
+
+def ranged(data, solid, h):
+    """Z_ff at zero pressure with the range h and w = 1e-5, N = 100."""
+    return number(mean(data.kept(solid, 100, 1e-5, float(h)), "Z_ff_fit")["mean"], 2)
+
+
+def cubes(data, which):
+    """Number of packings of cubes that are crystals, or that failed."""
+    packings = data.studies["percolation-cubes"]
+    counted = {"failed": [r for r in packings if r["status"] != "done"],
+               "crystals": [r for r in packings if "crystalline" in r["flags"]]}
+    return str(len(counted[which]))
+
+
+def redundant(data, solid, w):
+    """Least number of states of self-stress per particle."""
+    return number((mean(data.kept(solid, 100, float(w)), "C")["mean"] - 12) / 2, 1)
+
+
+def branching(data, particles, null=""):
+    """Branching ratio at the threshold."""
+    z = threshold_of(all_of_size(data, int(particles)), "fit", null == "random")["mean"]
+    return number(branching_near(data, int(particles), z, null == "random")["mean"], 2)
+
+
+def loops(data, particles):
+    """Share of the face-face contacts that close a loop at the threshold, in per cent."""
+    z = threshold_of(all_of_size(data, int(particles)))["mean"]
+    return number(100 * loops_near(data, int(particles), z), 0)
+
+
+FUNCTIONS = {"kept": kept, "without": without, "threshold_error": threshold_error,
+             "solid_threshold": solid_threshold, "memory": memory, "forgotten": forgotten,
+             "ratio": ratio, "misfit": misfit, "branching": branching, "loops": loops, "methods": methods,
+             "constraints": constraints_text, "others": others, "ranged": ranged,
+             "cubes": cubes, "density_loss": density_loss, "redundant": redundant}
+
+
+value_of = values.value_of(FUNCTIONS)
+
+
+
+def cohesive(data):
+    """All packings at zero pressure of the four solids, also those that means leave out."""
+    return [r for r in data.all if r["until"] == "end" and r["solid"] in SOLIDS and r["status"] == "done"]
+
+
+def of_strength(data, solid, column, *strengths):
+    return [mean(data.kept(solid, 100, w), column)["mean"] for w in strengths]
+
+
+def tension(data):
+    found = [last(r, "tension") for r in cohesive(data)]
+    return [value for value in found if value is not None]
+
+
+# Sentences of README.md that follow from the data only as long as these functions are true.
+CLAIMS = {
+    "with h = 0.03, where all of their packings percolate": lambda data: all(
+        last(r, "winding_fit") > 0 for r in data.kept("octahedron", 100, 1e-5, 0.03)),
+    "are crystals, and": lambda data: int(cubes(data, "crystals")) + int(cubes(data, "failed")) == len(
+        data.studies["percolation-cubes"]),
+    "The packings stay disordered.": lambda data: all("crystalline" not in r["flags"] for r in cohesive(data)),
+    "random bonds among the same contacts at": lambda data: all(
+        threshold_of(all_of_size(data, n), m, True)["high"] < threshold_of(all_of_size(data, n), m)["low"]
+        for n in (100, 200) for m in ("fit", "gap")),
+    "other solids forget it": lambda data: all(float(forgotten(data, n)) > 0.01 for n in (100, 200)),
+    "Cohesive tetrahedra are hyperstatic": lambda data: all(
+        found["mean"] - found["half_width"] - found["systematic"] > 12 for w in data.strengths("end", 100)
+        if (found := constraints(data.kept("tetrahedron", 100, w)))),
+    "C of octahedra is 12 within its systematic error, and C of icosahedra and dodecahedra is lower.": lambda data: (
+        abs(weakest(data, "octahedron")["mean"] - 12) < weakest(data, "octahedron")["systematic"]
+        and all(weakest(data, s)["mean"] < 11.5 for s in SOLIDS[2:])),
+    "it decreases with w by fit, and increases slowly by gap.": lambda data: all(
+        a > b and c < d for s in SOLIDS[:2] for (a, b), (c, d) in [(of_strength(data, s, "Z_ff_fit", 1e-5, 1e-3),
+                                                                    of_strength(data, s, "Z_ff_gap", 1e-5, 1e-3))]),
+    "about half of these are under tension": lambda data: 0.35 < min(tension(data)) and max(tension(data)) < 0.7,
+    "At the thresholds, both have similar branching ratios": lambda data: abs(
+        float(branching(data, "100")) - float(branching(data, "100", "random"))) < 0.2,
+}
 
 if __name__ == "__main__":
     pages.main(sys.modules[__name__], HERE)

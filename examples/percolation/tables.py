@@ -1,15 +1,16 @@
 """Tables of the page and of tables.md. Each function returns Markdown."""
 
-from analysis import (SOLIDS, all_of_size, chi_squared, collapse, difference_at, excess, last, mean, threshold_of)
+from analysis import (AFTER, AT, NO_COHESION, SOLIDS, all_of_size, collapse, constraints, crossing_of, difference_at,
+                      excess, last, mean, threshold_of, values_at)
 from estimates import estimate_of
-from text import counted, interval, number, significant, table
+from text import counted, interval, number, table
 
 METHODS = ("fit", "gap", "trough")
-AFTER = (0.02, 0.01, 0.005)  # Δφ of the states after the cohesion was switched off
+SHOWN = (1e-6, 1e-4)  # strengths in the main table
 
 
 def strength_text(w):
-    return f"{w:.0e}".replace("e-0", "e−")
+    return "0" if w <= NO_COHESION else f"{w:.0e}".replace("e-0", "e−")
 
 
 def share_text(replicates, column, positive=lambda x: x > 0):
@@ -18,45 +19,69 @@ def share_text(replicates, column, positive=lambda x: x > 0):
 
 
 def main_table(data):
-    """Packings of 100 particles at zero pressure."""
+    """Packings of 100 particles: without cohesion at the smallest distance to jamming, and at zero pressure."""
     rows = []
     for solid in SOLIDS:
-        for w in data.strengths("end", 100):
+        packings = data.untreated(solid, 100)
+        z, c, largest, order = (interval(estimate_of(values_at(packings, column, AT)))
+                                for column in ("Z_ff_fit", "C", "largest_fit", "Q6"))
+        rows.append([solid, "0", str(len(packings)), interval(estimate_of([r["phi"] for r in packings])), z, c, largest,
+                     share_text(packings, "winding_fit"), order])
+        for w in SHOWN:
             packings = data.kept(solid, 100, w)
             rows.append([solid, strength_text(w), str(len(packings)), interval(mean(packings, "phi_0")),
-                         interval(mean(packings, "Z_ff_fit")), interval(mean(packings, "C")),
+                         interval(mean(packings, "Z_ff_fit")), interval(constraints(packings)),
                          interval(mean(packings, "largest_fit")), share_text(packings, "winding_fit"),
                          interval(mean(packings, "Q6"))])
-    return table(["solid", "w", "packings", "φ_0", "Z_ff", "C", "largest cluster / N", "percolate", "Q6"], rows)
+    return table(["solid", "w", "packings", "φ_0 or φ_J", "Z_ff", "C", "largest cluster / N", "percolate", "Q6"], rows)
+
+
+def limits_text(found):
+    return f"{number(found['mean'], 2)} ({number(found['low'], 2)} … {number(found['high'], 2)})" if found else "–"
+
+
+def sizes_table(data):
+    return table(["N", "face-face contacts", "random bonds"],
+                 [[str(n), *(limits_text(threshold_of(all_of_size(data, n), "fit", of_random))
+                             for of_random in (False, True))] for n in (100, 200, 400)])
+
+
+def change_table(data):
+    rows = [[solid, *(interval(difference_at(data, solid, *group, AT)) for group in ((100, None), (200, 1e-5)))]
+            for solid in SOLIDS]
+    return table(["solid", "N = 100, all w", "N = 200, w = 1e-5"], rows)
 
 
 def kept_table(data):
     """All packings at zero pressure, with three kinds of cut-offs."""
     rows = []
-    solids = (*SOLIDS, "cube")
-    groups = sorted({(r["particles"], r["h"], solids.index(r["solid"]), r["w"]) for r in data.all if r["until"] == "end"})
+    groups = sorted({(r["particles"], r["h"], SOLIDS.index(r["solid"]), r["w"])
+                     for r in data.all if r["until"] == "end" and r["solid"] in SOLIDS})
     for particles, h, solid, w in groups:
-        packings = data.kept(solids[solid], particles, w, h)
-        rows.append([solids[solid], str(particles), f"{h:g}", strength_text(w), counted(mean(packings, "phi_0")),
-                     *(counted(mean(packings, f"Z_ff_{m}")) for m in METHODS), interval(mean(packings, "Z")),
+        packings = data.kept(SOLIDS[solid], particles, w, h)
+        rows.append([SOLIDS[solid], str(particles), f"{h:g}", strength_text(w), counted(mean(packings, "phi_0")),
+                     *(counted(mean(packings, f"Z_ff_{m}")) for m in METHODS), counted(mean(packings, "C")),
+                     counted(mean(packings, "C_trough")), interval(mean(packings, "Z")),
                      interval(mean(packings, "Z_grown")), interval(mean(packings, "tension"))])
-    return table(["solid", "N", "h", "w", "φ_0", *(f"Z_ff by {m}" for m in METHODS), "Z", "Z_grown", "tension"], rows)
+    return table(["solid", "N", "h", "w", "φ_0", *(f"Z_ff by {m}" for m in METHODS), "C by fit",
+                  "C by trough", "Z", "Z_grown", "tension"], rows)
 
 
 def clusters_table(data):
     rows = []
-    groups = sorted({(r["particles"], SOLIDS.index(r["solid"]), r["w"]) for r in data.all
-                     if r["until"] == "end" and r["solid"] in SOLIDS and r["h"] == 0.1})
-    for particles, solid, w in groups:
-        packings = data.kept(SOLIDS[solid], particles, w)
+    groups = sorted({(r["particles"], r["h"], SOLIDS.index(r["solid"]), r["w"]) for r in data.all
+                     if r["until"] == "end" and r["solid"] in SOLIDS})
+    for particles, h, solid, w in groups:
+        packings = data.kept(SOLIDS[solid], particles, w, h)
         for m in METHODS:
             if not mean(packings, f"S_{m}"):
                 continue
-            rows.append([SOLIDS[solid], str(particles), strength_text(w), m, counted(mean(packings, f"S_{m}")),
-                         interval(mean(packings, f"S_random_{m}")), interval(mean(packings, f"largest_{m}")),
+            rows.append([SOLIDS[solid], str(particles), f"{h:g}", strength_text(w), m,
+                         counted(mean(packings, f"S_{m}")), interval(mean(packings, f"S_random_{m}")),
+                         interval(mean(packings, f"largest_{m}")),
                          share_text(packings, f"winding_{m}"), share_text(packings, f"winding_{m}", lambda d: d > 2),
                          interval(mean(packings, f"winds_random_{m}"))])
-    return table(["solid", "N", "w", "cut-off", "S", "S of random bonds", "largest cluster / N", "percolate",
+    return table(["solid", "N", "h", "w", "cut-off", "S", "S of random bonds", "largest cluster / N", "percolate",
                   "in three directions", "probability for random bonds"], rows)
 
 
@@ -74,22 +99,22 @@ def memory_table(data):
 def thresholds_table(data):
     rows = []
     for m in METHODS:
-        for solids, name in ((SOLIDS, "all"), *(((s,), s) for s in SOLIDS)):
+        for solids, name in ((SOLIDS, "all"), *(((s,), s) for s in SOLIDS if m == "fit")):
             for particles in (100, 200, 400):
                 packings = all_of_size(data, particles, solids)
                 row = [m, name, str(particles)]
                 for of_random in (False, True):
                     found = threshold_of(packings, m, of_random)
-                    row.append(f"{number(found['mean'], 2)} ({number(found['low'], 2)} … {number(found['high'], 2)})"
-                               if found else "–")
+                    row.append(limits_text(found))
                 if row[3:] != ["–", "–"]:
                     rows.append(row)
-    return table(["cut-off", "solid", "N", "Z_ff where half of the packings percolate", "the same for random bonds"], rows)
+    return table(["cut-off", "solid", "N", "Z_ff where half of the packings percolate", "the same for random bonds"],
+                 rows)
 
 
 def collapse_table(data):
     found = collapse(data, 100)
-    rows = [[solid, strength_text(w) if w else "0", until, counted(e)]
+    rows = [[solid, strength_text(w), until, counted(e)]
             for (solid, w, until), e in sorted(found["offsets"].items())]
     return table(["solid", "w", "cohesion until", "mean of ln S − ln S of the common curve"], rows)
 
@@ -114,26 +139,35 @@ def cycles_table(data):
     return table(["solid", "cycle", "φ_J", "Z_ff", "Z"], rows)
 
 
-def remaining(data, particles, distance):
-    """χ², degrees of freedom and probability of all differences of Z_ff at a distance."""
-    return chi_squared([difference_at(data, solid, particles, w, distance) for solid in SOLIDS
-                        for w in data.strengths("decompression", particles)])
+def crossings_table(data):
+    rows = []
+    for m in METHODS:
+        for sizes in ((100, 200), (200, 400), (100, 400)):
+            cells = []
+            for of_random in (False, True):
+                found = crossing_of(*(all_of_size(data, n) for n in sizes), m, of_random)
+                cells.append(limits_text(found))
+            rows.append([m, f"{sizes[0]} and {sizes[1]}", *cells])
+    return table(["cut-off", "N", "Z_ff of equal probability", "the same for random bonds"], rows)
 
 
 TABLES = [
-    ("Packings at zero pressure", "Cohesion acts until the end. Tension is the share of the contacts that are under "
-     "tension. Z counts the pairs that touch, Z_grown the pairs that attract each other.", kept_table),
-    ("Clusters at zero pressure", "S is the mean cluster size. *Percolate* counts packings in which a cluster is connected "
-     "to its own periodic image. Random bonds are as many contacts, drawn at random from all contacts of the same packing.",
-     clusters_table),
-    ("Thresholds", "Logistic regression of whether a packing percolates on its Z_ff, over all packings of a size. In "
-     "parentheses: 95 % confidence interval (percentiles of a bootstrap over packings).", thresholds_table),
-    ("The common curve", "A cubic polynomial of Z_ff was fitted to ln S of all states with N = 100 and S < 0.3 N. The table "
-     "has the mean deviation of each group from this curve. The states of a packing are not independent, so the intervals "
-     "of groups until decompression are too narrow.", collapse_table),
-    ("Clusters beside those of random bonds", "N = 100, nearest jamming or at zero pressure.", excess_table),
-    ("After the cohesion was switched off", "Z_ff minus Z_ff of packings without cohesion (Welch's t), at three distances to "
-     "jamming.", memory_table),
-    ("Training cycles", "Decompression to Δφ = 0.01 and compression to E/N = 3.2e-5, without cohesion, N = 100.",
-     cycles_table),
+    ("Packings at zero pressure", """Cohesion acts until the end. Z counts the pairs that touch, and Z_grown the pairs
+     that attract each other. *Tension* is the share of the contacts that are under tension.""", kept_table),
+    ("Clusters at zero pressure", """S is the mean cluster size. *Percolate* counts packings in which a cluster is
+     connected to its own periodic image. Random bonds are as many contacts, drawn at random from all contacts of the
+     same packing.""", clusters_table),
+    ("Thresholds", """Logistic regression of whether a packing percolates on its Z_ff, over all packings of a size. In
+     parentheses: 95 % confidence interval (percentiles of a bootstrap over packings).""", thresholds_table),
+    ("Crossings", """Z_ff at which packings of two sizes have the same probability to percolate, from the logistic
+     curves of the table above. In parentheses: 95 % confidence interval. A dash means that the data do not determine
+     the crossing.""", crossings_table),
+    ("The common curve", """A cubic polynomial of Z_ff was fitted to ln S of all states with N = 100 and S < 0.3 N.
+     The table has the mean deviation of each group from this curve. The states of a decompression are not
+     independent, so the intervals of groups with cohesion until decompression are too narrow.""", collapse_table),
+    ("Clusters beside those of random bonds", "N = 100, in the last state of each packing.", excess_table),
+    ("After the cohesion was switched off", """Z_ff minus Z_ff of packings without cohesion, at three distances to
+     jamming. The interval is that of Welch's t.""", memory_table),
+    ("Training cycles", """Each cycle is a decompression to Δφ = 0.01 and a compression to E/N = 3.2e-5, without
+     cohesion, N = 100. Z_ff and Z are those at the end of the decompression.""", cycles_table),
 ]

@@ -1,4 +1,4 @@
-"""Recomputes the numbers of the abstracts of examples/paper and examples/rigidity with code of its own.
+"""Recomputes the numbers of the abstracts of examples/paper, rigidity and percolation with code of its own.
 
 usage: abstracts.py README.md DATA.json...                       # from data files
        abstracts.py README.md --results ISOJAM DIRECTORY...      # from records and exported contacts
@@ -187,9 +187,9 @@ def paper_numbers(rows, pooled, size):
 
 
 def limit_error(rows, solid):
-    """Half the width of the 95 % interval of the linear limit of C by trough as Δφ → 0, by a jackknife over packings."""
-    points = [[(p - r["phi_j"], c) for p, c in zip(r["states"]["phi"], r["states"].get("C_trough", [])) if c is not None]
-              for r in of(rows, solid, 100)]
+    """Half the width of the 95 % interval of the linear limit of C by trough as Δφ → 0, by a jackknife."""
+    points = [[(p - r["phi_j"], c) for p, c in zip(r["states"]["phi"], r["states"].get("C_trough", []))
+               if c is not None] for r in of(rows, solid, 100)]
     inside = [some for some in ([p for p in packing if 0 <= p[0] < 0.01] for packing in points) if some]
 
     def limit(packings):
@@ -209,6 +209,84 @@ def rigidity_numbers(rows, pooled, size):
             ("2", 2, 0), *((f"C by trough, {s}", constraints_by_trough(rows, pooled, s, size), 0.12) for s in SOLIDS),
             ("0", 0, 0), ("error of the limit, least", min(limit_error(rows, s) for s in SOLIDS), 0.03),
             ("error of the limit, greatest", max(limit_error(rows, s) for s in SOLIDS), 0.08)]
+
+
+def cohesive(rows, until, **values):
+    """Rows of the study of percolation that are not from its other solids, ranges and cycles."""
+    return [r for r in rows if r["until"] == until and r["h"] == 0.1 and r["solid"] in SOLIDS and "cycles" not in r
+            and all(r[key] == value for key, value in values.items())]
+
+
+def at_distance(row, column, distance):
+    x, y = zip(*sorted((numpy.log(d), v) for d, v in zip(row["states"]["delta"], row["states"][column])
+                       if v is not None and d > 0))
+    return float(numpy.interp(numpy.log(distance), x, y)) if x[0] <= numpy.log(distance) <= x[-1] else None
+
+
+def mean_at(rows, distance=0.01):
+    found = [at_distance(r, "Z_ff_fit", distance) for r in rows if "Z_ff_fit" in r["states"]]
+    return numpy.mean([value for value in found if value is not None])
+
+
+def half_point(rows, column):
+    """Z_ff at which a logistic curve, fitted by iteratively reweighted least squares, is 1/2, and half the width of its
+    95 % confidence interval by the delta method."""
+    pairs = [(r["states"]["Z_ff_fit"][-1], float(r["states"][column][-1])) for r in rows
+             if "Z_ff_fit" in r["states"] and r["states"]["Z_ff_fit"][-1] is not None]
+    z, y = numpy.array(pairs).T
+    design, y = numpy.stack([numpy.ones_like(z), z], axis=1), numpy.minimum(y, 1)
+    coefficients = numpy.zeros(2)
+    for _ in range(60):
+        p = 1 / (1 + numpy.exp(-design @ coefficients))
+        weights = numpy.maximum(p * (1 - p), 1e-9)
+        coefficients = coefficients + numpy.linalg.solve(design.T @ (weights[:, None] * design), design.T @ (y - p))
+    middle, dispersion = -coefficients[0] / coefficients[1], ((y - p) ** 2 / numpy.maximum(p * (1 - p), 1e-9)).mean()
+    gradient = numpy.array([-1, -middle]) / coefficients[1]
+    variance = gradient @ numpy.linalg.inv(design.T @ (weights[:, None] * design)) @ gradient
+    return middle, 1.96 * numpy.sqrt(min(1, dispersion) * variance)
+
+
+def difference(rows, solid):
+    """Mean Z_ff at Δφ = 0.01 after cohesion of any strength, minus that without, and the 95 % interval by Welch's t."""
+    groups = [numpy.array([v for v in (at_distance(r, "Z_ff_fit", 0.01) for r in some if "Z_ff_fit" in r["states"])
+                           if v is not None]) for some in (
+        cohesive(rows, "decompression", particles=100, solid=solid, w=1e-12),
+        [r for r in cohesive(rows, "decompression", particles=100, solid=solid) if r["w"] > 1e-12])]
+    interval = stats.ttest_ind(groups[1], groups[0], equal_var=False)
+    mean = groups[1].mean() - groups[0].mean()
+    return mean, abs(mean / interval.statistic) * stats.t.ppf(0.975, welch_freedom(*groups))
+
+
+def welch_freedom(first, second):
+    a, b = (g.var(ddof=1) / len(g) for g in (first, second))
+    return (a + b) ** 2 / (a * a / (len(first) - 1) + b * b / (len(second) - 1))
+
+
+def constraints_at_zero_pressure(rows, solid):
+    """Mean C, and its 95 % interval plus half the difference between doubled and halved cut-offs."""
+    states = [r["states"] for r in cohesive(rows, "end", particles=100, solid=solid, w=1e-6)]
+    c, half, double = (numpy.array([s[name][-1] for s in states]) for name in ("C", "C_half", "C_double"))
+    return c.mean(), stats.t.ppf(0.975, len(c) - 1) * stats.sem(c) + abs(double.mean() - half.mean()) / 2
+
+
+def percolation_numbers(rows, pooled, size):
+    del pooled, size
+    kept = [numpy.mean([r["states"]["Z_ff_fit"][-1] for r in cohesive(rows, "end", particles=100, solid=s, w=1e-6)])
+            for s in SOLIDS]
+    without = [mean_at(cohesive(rows, "decompression", particles=100, solid=s, w=1e-12)) for s in SOLIDS]
+    every = [r for until in ("end", "decompression") for r in cohesive(rows, until, particles=100)]
+    (real, error), (random, random_error) = (half_point(every, f"{name}_fit") for name in ("winding", "winds_random"))
+    left, left_error = difference(rows, "tetrahedron")
+    (c, c_error), *others = (constraints_at_zero_pressure(rows, s) for s in SOLIDS)
+    return [("reference", 1, 0), *((f"Z_ff, {s}", z, 0.0051) for s, z in zip(SOLIDS, kept)),
+            *((f"Z_ff without cohesion, {s}", z, 0.0051) for s, z in zip(SOLIDS, without)),
+            ("threshold", real, 0.02), ("its error", error, 0.03),
+            ("threshold of random bonds", random, 0.02), ("its error", random_error, 0.02),
+            ("Z_ff that tetrahedra keep", left, 0.00051), ("its error", left_error, 0.00051),
+            ("C, tetrahedron", c, 0.051), ("its error", c_error, 0.051),
+            ("C of others, least", min(m for m, _ in others), 0.051),
+            ("C of others, greatest", max(m for m, _ in others), 0.051),
+            ("its error", max(e for _, e in others), 0.051)]
 
 
 def abstract_of(readme):
@@ -234,8 +312,9 @@ def compared(readme, rows, pooled):
     text, sentences = abstract_of(readme)
     written = [float(x.replace("−", "-")) for x in re.findall(r"(?<![\w.])[−+]?\d+(?:\.\d+)?", text)]
     page = pathlib.Path(readme).read_text(encoding="utf-8")
-    size = int(re.search(r"C by trough, N = (\d+)", page)[1])
-    make = rigidity_numbers if "rigid" in page[:60] else paper_numbers
+    size = int((re.search(r"C by trough, N = (\d+)", page) or [0, 100])[1])
+    make = next((make for word, make in (("rigid", rigidity_numbers), ("percolation", percolation_numbers))
+                 if word in page[:60]), paper_numbers)
     numbers = make(rows, pooled, size)
     lines = [f"this sentence DIFFERS from the data: {one}" for one in wrong_sentences(rows, pooled, size, sentences)]
     wrong = len(lines)

@@ -1,4 +1,4 @@
-"""Tests the pages of examples/paper and examples/rigidity. usage: studies_test.py examples ISOJAM
+"""Tests the pages of examples/paper, examples/rigidity and examples/percolation. usage: studies_test.py examples ISOJAM
 
 - The committed pages and their tables agree with the committed data, and so does the table in README.md. A page with a
   changed number is rejected, and so is a page without one of its sentences about the data.
@@ -27,9 +27,9 @@ import abstracts  # noqa: E402
 from data import Data  # noqa: E402
 from marks import without_marks  # noqa: E402
 
-STUDIES = ("paper", "rigidity")
-PAPER_DATA, RIGIDITY_DATA = (EXAMPLES / study / "data/records.json" for study in STUDIES)
-FILES = {"paper": [PAPER_DATA], "rigidity": [PAPER_DATA, RIGIDITY_DATA]}
+STUDIES = ("paper", "rigidity", "percolation")
+PAPER_DATA, RIGIDITY_DATA, PERCOLATION_DATA = (EXAMPLES / study / "data/records.json" for study in STUDIES)
+FILES = {"paper": [PAPER_DATA], "rigidity": [PAPER_DATA, RIGIDITY_DATA], "percolation": [PERCOLATION_DATA]}
 
 
 def python(*arguments):
@@ -59,7 +59,9 @@ class Pages(unittest.TestCase):
 
     def test_are_refused_if_changed(self):
         changes = {"paper": (("| octahedron | 0.6", "| octahedron | 0.7"), ("C lies near 12", "C lies far from 12")),
-                   "rigidity": (("12 − 6/N", "13 − 6/N"),)}
+                   "rigidity": (("12 − 6/N", "13 − 6/N"),),
+                   "percolation": (("| octahedron | 0 | 16 | 0.6", "| octahedron | 0 | 16 | 0.7"),
+                                   ("The packings stay disordered", "The packings are crystals"))}
         for study, replacements in changes.items():
             for before, after in replacements:
                 with tempfile.TemporaryDirectory() as here:
