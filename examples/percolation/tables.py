@@ -6,11 +6,12 @@ from estimates import estimate_of
 from text import counted, interval, number, table
 
 METHODS = ("fit", "gap", "trough")
+ALL = (*SOLIDS, "cube")
 SHOWN = (1e-6, 1e-4)  # strengths in the main table
 
 
 def strength_text(w):
-    return "0" if w <= NO_COHESION else f"{w:.0e}".replace("e-0", "e−")
+    return "1e−12" if w == NO_COHESION else "0" if w == 0 else f"{w:.0e}".replace("e-0", "e−")
 
 
 def share_text(replicates, column, positive=lambda x: x > 0):
@@ -55,15 +56,17 @@ def change_table(data):
 def kept_table(data):
     """All packings at zero pressure, with three kinds of cut-offs."""
     rows = []
-    groups = sorted({(r["particles"], r["h"], SOLIDS.index(r["solid"]), r["w"])
-                     for r in data.all if r["until"] == "end" and r["solid"] in SOLIDS})
+    groups = sorted({(r["particles"], r["h"], ALL.index(r["solid"]), r["w"]) for r in data.all if r["until"] == "end"})
     for particles, h, solid, w in groups:
-        packings = data.kept(SOLIDS[solid], particles, w, h)
-        rows.append([SOLIDS[solid], str(particles), f"{h:g}", strength_text(w), counted(mean(packings, "phi_0")),
+        packings = data.kept(ALL[solid], particles, w, h)
+        crystals = [r for r in data.all if "crystalline" in r["flags"] and (
+            r["until"], r["particles"], r["h"], r["solid"], r["w"]) == ("end", particles, h, ALL[solid], w)]
+        rows.append([ALL[solid], str(particles), f"{h:g}", strength_text(w), str(len(crystals)),
+                     counted(mean(packings, "phi_0")),
                      *(counted(mean(packings, f"Z_ff_{m}")) for m in METHODS), counted(mean(packings, "C")),
                      counted(mean(packings, "C_trough")), interval(mean(packings, "Z")),
                      interval(mean(packings, "Z_grown")), interval(mean(packings, "tension"))])
-    return table(["solid", "N", "h", "w", "φ_0", *(f"Z_ff by {m}" for m in METHODS), "C by fit",
+    return table(["solid", "N", "h", "w", "crystals", "φ_0", *(f"Z_ff by {m}" for m in METHODS), "C by fit",
                   "C by trough", "Z", "Z_grown", "tension"], rows)
 
 
@@ -153,7 +156,7 @@ def crossings_table(data):
 
 TABLES = [
     ("Packings at zero pressure", """Cohesion acts until the end. Z counts the pairs that touch, and Z_grown the pairs
-     that attract each other. *Tension* is the share of the contacts that are under tension.""", kept_table),
+     that attract each other. Crystals are counted, and left out of the means. *Tension* is the share of the contacts that are under tension.""", kept_table),
     ("Clusters at zero pressure", """S is the mean cluster size. *Percolate* counts packings in which a cluster is
      connected to its own periodic image. Random bonds are as many contacts, drawn at random from all contacts of the
      same packing.""", clusters_table),

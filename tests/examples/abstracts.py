@@ -246,12 +246,12 @@ def half_point(rows, column):
     return middle, 1.96 * numpy.sqrt(min(1, dispersion) * variance)
 
 
-def difference(rows, solid):
+def difference(rows, solid, particles):
     """Mean Z_ff at Δφ = 0.01 after cohesion of any strength, minus that without, and the 95 % interval by Welch's t."""
     groups = [numpy.array([v for v in (at_distance(r, "Z_ff_fit", 0.01) for r in some if "Z_ff_fit" in r["states"])
                            if v is not None]) for some in (
-        cohesive(rows, "decompression", particles=100, solid=solid, w=1e-12),
-        [r for r in cohesive(rows, "decompression", particles=100, solid=solid) if r["w"] > 1e-12])]
+        cohesive(rows, "decompression", particles=particles, solid=solid, w=1e-12),
+        [r for r in cohesive(rows, "decompression", particles=particles, solid=solid) if r["w"] > 1e-12])]
     interval = stats.ttest_ind(groups[1], groups[0], equal_var=False)
     mean = groups[1].mean() - groups[0].mean()
     return mean, abs(mean / interval.statistic) * stats.t.ppf(0.975, welch_freedom(*groups))
@@ -275,15 +275,18 @@ def percolation_numbers(rows, pooled, size):
             for s in SOLIDS]
     without = [mean_at(cohesive(rows, "decompression", particles=100, solid=s, w=1e-12)) for s in SOLIDS]
     every = [r for until in ("end", "decompression") for r in cohesive(rows, until, particles=100)]
-    (real, error), (random, random_error) = (half_point(every, f"{name}_fit") for name in ("winding", "winds_random"))
-    left, left_error = difference(rows, "tetrahedron")
+    real, error = half_point(every, "winding_fit")
+    random = [half_point([r for r in every if r["solid"] == s], "winds_random_fit")[0] for s in SOLIDS]
+    left, left_error = difference(rows, "tetrahedron", 100)
+    undetected = max(difference(rows, s, n)[1] for s in SOLIDS[1:] for n in (100, 200))
     (c, c_error), *others = (constraints_at_zero_pressure(rows, s) for s in SOLIDS)
-    return [("reference", 1, 0), *((f"Z_ff, {s}", z, 0.0051) for s, z in zip(SOLIDS, kept)),
-            *((f"Z_ff without cohesion, {s}", z, 0.0051) for s, z in zip(SOLIDS, without)),
-            ("threshold", real, 0.02), ("its error", error, 0.03),
-            ("threshold of random bonds", random, 0.02), ("its error", random_error, 0.02),
+    return [("reference", 1, 0), ("Z_ff without cohesion, tetrahedron", without[0], 0.0051),
+            ("Z_ff, tetrahedron", kept[0], 0.0051), ("Z_ff without cohesion, icosahedron", without[2], 0.0051),
+            ("Z_ff, icosahedron", kept[2], 0.0051), ("threshold", real, 0.02), ("its error", error, 0.03),
+            ("threshold of random bonds, tetrahedron", random[0], 0.03),
+            ("threshold of random bonds, dodecahedron", random[3], 0.03),
             ("Z_ff that tetrahedra keep", left, 0.00051), ("its error", left_error, 0.00051),
-            ("C, tetrahedron", c, 0.051), ("its error", c_error, 0.051),
+            ("undetected change", undetected, 0.0051), ("C, tetrahedron", c, 0.051), ("its error", c_error, 0.051),
             ("C of others, least", min(m for m, _ in others), 0.051),
             ("C of others, greatest", max(m for m, _ in others), 0.051),
             ("its error", max(e for _, e in others), 0.051)]

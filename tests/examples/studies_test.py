@@ -61,7 +61,7 @@ class Pages(unittest.TestCase):
         changes = {"paper": (("| octahedron | 0.6", "| octahedron | 0.7"), ("C lies near 12", "C lies far from 12")),
                    "rigidity": (("12 − 6/N", "13 − 6/N"),),
                    "percolation": (("| octahedron | 0 | 16 | 0.6", "| octahedron | 0 | 16 | 0.7"),
-                                   ("The packings stay disordered", "The packings are crystals"))}
+                                   ("None of these packings", "One of these packings"))}
         for study, replacements in changes.items():
             for before, after in replacements:
                 with tempfile.TemporaryDirectory() as here:
