@@ -81,9 +81,10 @@ def clusters(data, out):
             drawn = middles(pairs, edges)
             if drawn:
                 middle.plot(*zip(*drawn), style, color=GREYS[particles], markersize=3,
-                            label=f"{particles}" + (", random" if of_random else ""))
+                            label=None if of_random else f"N = {particles}")
     middle.set(xlabel="$Z_{ff}$", ylabel="probability of percolation", ylim=(-0.03, 1.03), xlim=(0, 2.3))
-    middle.legend(loc="upper left", title="N", alignment="left")
+    middle.plot([], [], "kx--", markersize=3, label="random bonds")
+    middle.legend(loc="upper left")
     right.plot(*zip(*middles(in_last_states(data, "branching_random", lambda r, name: r.get(name)), edges)), "k--",
                linewidth=1, label="random bonds")
     right.set(xlabel="$Z_{ff}$", ylabel="branching ratio", xlim=(0, 2.4), ylim=(0, None))

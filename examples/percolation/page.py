@@ -10,10 +10,10 @@ sys.path.insert(0, str(HERE.parent / "page"))
 import pages  # noqa: E402
 import values  # noqa: E402
 from analysis import (  # noqa: E402, F401
-    AT, SOLIDS, Data, all_of_size, branching_near, chi_squared, collapse, constraints, difference_at,
+    AT, SOLIDS, Data, all_of_size, branching_near, chi_squared, collapse, constraints, crossing_of, difference_at,
     last, loops_near, mean, threshold_of, values_at)
 from estimates import difference_of, estimate_of  # noqa: E402
-from tables import TABLES, change_table, main_table, sizes_table  # noqa: E402, F401
+from tables import TABLES, change_table, limits_text, main_table, sizes_table  # noqa: E402, F401
 from text import interval, number, significant  # noqa: E402
 
 TITLE = "Cohesion and the percolation of face-face contacts"
@@ -42,6 +42,11 @@ def threshold_error(data, particles):
     """The threshold ± half the width of its interval."""
     found = threshold_of(all_of_size(data, int(particles)))
     return interval({**found, "half_width": 0.5 * (found["high"] - found["low"])})
+
+
+def random_crossing(data, smaller, larger):
+    found = crossing_of(all_of_size(data, int(smaller)), all_of_size(data, int(larger)), "fit", True)
+    return limits_text(found)
 
 
 def memory(data, solid, particles, w="all"):
@@ -126,7 +131,8 @@ def loops(data, particles):
 
 
 FUNCTIONS = {"kept": kept, "without": without, "threshold_error": threshold_error,
-             "solid_threshold": solid_threshold, "memory": memory, "forgotten": forgotten, "undetected": undetected,
+             "solid_threshold": solid_threshold, "random_crossing": random_crossing, "memory": memory,
+             "forgotten": forgotten, "undetected": undetected,
              "misfit": misfit, "branching": branching, "loops": loops, "constraints": constraints_text,
              "others": others, "ranged": ranged, "cubes": cubes, "density_loss": density_loss, "redundant": redundant}
 

@@ -156,7 +156,8 @@ def crossings_table(data):
 
 TABLES = [
     ("Packings at zero pressure", """Cohesion acts until the end. Z counts the pairs that touch, and Z_grown the pairs
-     that attract each other. Crystals are counted, and left out of the means. *Tension* is the share of the contacts that are under tension.""", kept_table),
+     that attract each other. Crystals are counted, and left out of the means. *Tension* is the share of the contacts that
+     are under tension.""", kept_table),
     ("Clusters at zero pressure", """S is the mean cluster size. *Percolate* counts packings in which a cluster is
      connected to its own periodic image. Random bonds are as many contacts, drawn at random from all contacts of the
      same packing.""", clusters_table),
