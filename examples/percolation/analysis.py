@@ -31,7 +31,6 @@ class Data:
         studies = {}
         for file in files:
             studies |= json.loads(Path(file).read_text(encoding="utf-8"))
-        self.git = sorted({commit for study in studies.values() for commit in study["git"]})
         self.excluded = {flag for study in studies.values() for flag in study["exclude"]}
         self.studies = {name: study["replicates"] for name, study in studies.items()}
         self.all = [replicate for replicates in self.studies.values() for replicate in replicates]
@@ -113,7 +112,7 @@ def points(data, particles, method="fit"):
 
 def collapse(data, particles, method="fit"):
     """Fits ln S by a cubic polynomial of Z_ff, for states with S below FITTED_BELOW·N. Compares the mean residual of
-    each group with its standard error, where the states of a group count as independent only across replicates."""
+    each group with its standard error, and χ² of the groups with one state per packing."""
     chosen = [p for p in points(data, particles, method) if p[1] < FITTED_BELOW * particles]
     z, log_s = numpy.array([p[0] for p in chosen]), numpy.log([p[1] for p in chosen])
     curve = numpy.polynomial.Polynomial.fit(z, log_s, 3)
@@ -122,9 +121,9 @@ def collapse(data, particles, method="fit"):
         groups.setdefault(group, []).append(residual)
     offsets = {group: estimate_of(residuals) for group, residuals in groups.items() if len(residuals) > 5}
     deviations = [e["mean"] for e in offsets.values()]
-    # One state per packing: only these groups have independent states.
+    # The states of a decompression are not independent.
     single = [e for (_, _, until), e in offsets.items() if until == "end"]
-    return {"curve": curve, "offsets": offsets, "states": len(chosen), "chi_squared": chi_squared(single),
+    return {"curve": curve, "offsets": offsets, "chi_squared": chi_squared(single),
             "within": float(numpy.std(log_s - curve(z))), "between": float(numpy.std(deviations))}
 
 

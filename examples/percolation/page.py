@@ -132,13 +132,12 @@ def loops(data, particles):
 
 FUNCTIONS = {"kept": kept, "without": without, "threshold_error": threshold_error,
              "solid_threshold": solid_threshold, "random_crossing": random_crossing, "memory": memory,
-             "forgotten": forgotten, "undetected": undetected,
-             "misfit": misfit, "branching": branching, "loops": loops, "constraints": constraints_text,
+             "forgotten": forgotten, "undetected": undetected, "misfit": misfit,
+             "branching": branching, "loops": loops, "constraints": constraints_text,
              "others": others, "ranged": ranged, "cubes": cubes, "density_loss": density_loss, "redundant": redundant}
 
 
 value_of = values.value_of(FUNCTIONS)
-
 
 
 def cohesive(data):

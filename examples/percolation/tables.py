@@ -20,7 +20,7 @@ def share_text(replicates, column, positive=lambda x: x > 0):
 
 
 def main_table(data):
-    """Packings of 100 particles: without cohesion at the smallest distance to jamming, and at zero pressure."""
+    """Packings of 100 particles: without cohesion at Δφ = AT, and with cohesion at zero pressure."""
     rows = []
     for solid in SOLIDS:
         packings = data.untreated(solid, 100)
