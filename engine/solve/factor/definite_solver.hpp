@@ -16,6 +16,10 @@ namespace isojam {
 /// complete factorisation.
 class DefiniteSolver {
  public:
+  /// `complete` is the memory for complete factorisations, the largest object of a large system. Several solvers can use
+  /// the same one in turn.
+  explicit DefiniteSolver(BlockCholesky& complete) : complete_(complete) {}
+
   /// Returns nullopt if the matrix is found to be not positive definite. Conjugate gradients can overlook this. They
   /// end when √(r·P⁻¹r) is at most `tolerance` times its initial value, where r is the residual vector and P the
   /// preconditioner. The numbers of operations are added to `work`.
@@ -23,7 +27,7 @@ class DefiniteSolver {
                                        double tolerance, MinimiseWork& work);
 
  private:
-  BlockCholesky complete_;
+  BlockCholesky& complete_;
   IncompleteCholesky incomplete_;
 };
 

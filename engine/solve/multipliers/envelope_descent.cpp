@@ -22,8 +22,8 @@ constexpr double poor = 0.25;
 
 }  // namespace
 
-EnvelopeDescent::EnvelopeDescent(EnvelopeEvaluator& evaluator, MinimiseWork& work)
-    : evaluator_(evaluator), work_(work), models_(first_preconditioner_shift), shift_(first_shift) {}
+EnvelopeDescent::EnvelopeDescent(EnvelopeEvaluator& evaluator, BlockCholesky& complete, MinimiseWork& work)
+    : evaluator_(evaluator), work_(work), models_(first_preconditioner_shift, complete), shift_(first_shift) {}
 
 void EnvelopeDescent::set_stiffness(double k0) {
   shift_ *= k0 / k0_;

@@ -14,7 +14,8 @@ namespace isojam {
 /// few steps are then rejected.
 class EnvelopeDescent {
  public:
-  EnvelopeDescent(EnvelopeEvaluator& evaluator, MinimiseWork& work);
+  /// `complete` is the memory for complete factorisations (DefiniteSolver).
+  EnvelopeDescent(EnvelopeEvaluator& evaluator, BlockCholesky& complete, MinimiseWork& work);
 
   /// Sets the stiffness k₀ = f/Δφ of soft contacts, where f is the mean contact force. The Levenberg–Marquardt shift λ
   /// keeps its ratio to k₀.

@@ -65,8 +65,8 @@ class KrylovModel {
 /// factorisations are therefore complete, until a matrix is indefinite.
 class KrylovModels {
  public:
-  /// `shift` is the first λ_P.
-  explicit KrylovModels(double shift) : shift_(shift) {}
+  /// `shift` is the first λ_P, and `complete` the memory for complete factorisations (DefiniteSolver).
+  KrylovModels(double shift, BlockCholesky& complete) : complete_(complete), shift_(shift) {}
 
   /// Adapts λ_P to matrices that are larger by this factor from now on.
   void scale(double factor) { shift_ *= factor, negative_ *= factor; }
@@ -81,7 +81,7 @@ class KrylovModels {
   bool factorise(const BlockMatrix& matrix, MinimiseWork& work);
 
   IncompleteCholesky incomplete_;
-  BlockCholesky complete_;
+  BlockCholesky& complete_;
   bool uses_complete_ = false;
   double shift_, negative_ = 0;
 };

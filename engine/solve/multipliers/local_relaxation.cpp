@@ -99,7 +99,8 @@ bool relax_locally(const std::vector<char>& flags, double shift, double predicte
   const double longest = longest_step * state.packing.solids.least_inradius();
   EnvelopeState here{state.packing, part_of(state.value, flags)};
   MinimiseWork local;
-  KrylovModels models(shift);
+  BlockCholesky complete;
+  KrylovModels models(shift, complete);
   std::optional<KrylovModel> model;
   bool moved_at_all = false;
   double more = growth;

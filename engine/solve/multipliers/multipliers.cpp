@@ -120,7 +120,7 @@ class Multipliers {
         options_(options),
         stop_(std::move(stop)),
         evaluator_(Enthalpy(options.control, packing.cell), summary_.work),
-        descent_(evaluator_, summary_.work),
+        descent_(evaluator_, complete_, summary_.work),
         here_{packing, {}} {}
 
   /// Follows the equilibrium to another density.
@@ -308,6 +308,7 @@ class Multipliers {
 
   /// Newton's method for the energy, which reduces the residual that the method of multipliers leaves.
   void polish() {
+    complete_ = {};  // to release its memory: Newton's method has a factorisation of its own
     MinimiseOptions options = options_;
     options.method = Method::newton;
     options.max_evaluations = std::min(last_evaluations, options_.max_evaluations);
@@ -322,7 +323,8 @@ class Multipliers {
     summary_ = sum;
   }
 
-  DefiniteSolver solver_;
+  BlockCholesky complete_;  ///< used by solver_ and descent_ in turn
+  DefiniteSolver solver_{complete_};
   Packing& packing_;
   double distance_;
   PackingEnergy& energy_;

@@ -95,7 +95,8 @@ TEST(DefiniteSolver, IteratesInLargeSystems) {
     for (double& x : exact) x = random.uniform() - 0.5;
     const Eigen::VectorXd b = matrix * exact + shift * exact;
     MinimiseWork work;
-    const auto found = DefiniteSolver().solve(matrix, shift, b, 1e-6, work);
+    BlockCholesky complete;
+    const auto found = DefiniteSolver(complete).solve(matrix, shift, b, 1e-6, work);
     ASSERT_TRUE(found);
     std::printf("N = %d: error %.1e, %ld complete factorisations, %ld iterations\n", n,
                 (*found - exact).norm() / exact.norm(), work.factorisations, work.krylov_vectors);
@@ -109,7 +110,8 @@ TEST(DefiniteSolver, ReportsNegativeCurvature) {
   const BlockMatrix matrix = scattered_blocks(800, 9);
   Eigen::VectorXd b = Eigen::VectorXd::Ones(matrix.rows());
   MinimiseWork work;
-  EXPECT_FALSE(DefiniteSolver().solve(matrix, 0, b, 1e-6, work)) << "the lowest eigenvalue is about -4";
+  BlockCholesky complete;
+  EXPECT_FALSE(DefiniteSolver(complete).solve(matrix, 0, b, 1e-6, work)) << "the lowest eigenvalue is about -4";
   IncompleteCholesky preconditioner;
   ASSERT_TRUE(preconditioner.factorise(matrix, safe_shift));
   const IterativeSolution cut = conjugate_gradients(matrix, safe_shift, preconditioner, b, 1e-12, 2);

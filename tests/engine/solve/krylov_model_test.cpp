@@ -122,7 +122,8 @@ TEST(KrylovModels, MeetIndefiniteMatrices) {
   for (const double diagonal : {8.0, 2.0, -1.0}) {
     const System system = random_system(30, diagonal, 5);
     const double lowest = Eigensolver(system.dense).eigenvalues()[0];
-    KrylovModels models(1e-3);
+    BlockCholesky complete;
+    KrylovModels models(1e-3, complete);
     MinimiseWork work;
     const auto model = models.model(system.matrix, system.gradient, 1e-3, work);
     ASSERT_TRUE(model);
@@ -136,7 +137,8 @@ TEST(KrylovModels, MeetIndefiniteMatrices) {
   System broken = random_system(10, 8.0, 6);
   broken.matrix.diagonal[3](1, 1) = std::numeric_limits<double>::quiet_NaN();
   MinimiseWork work;
-  EXPECT_FALSE(KrylovModels(1.0).model(broken.matrix, broken.gradient, 1, work));
+  BlockCholesky complete;
+  EXPECT_FALSE(KrylovModels(1.0, complete).model(broken.matrix, broken.gradient, 1, work));
 }
 
 TEST(KrylovModels, FactoriseCompletelyAfterASpaceWithoutTheSoftModes) {
@@ -153,7 +155,8 @@ TEST(KrylovModels, FactoriseCompletelyAfterASpaceWithoutTheSoftModes) {
   const auto error = [&](const KrylovModel& model) {
     return (model.step(shift, no_limit).step - exact).norm() / exact.norm();
   };
-  KrylovModels models(1e3);
+  BlockCholesky memory;
+  KrylovModels models(1e3, memory);
   MinimiseWork work;
   const auto first = models.model(system.matrix, system.gradient, shift, work);
   ASSERT_TRUE(first && first->incomplete());

@@ -225,7 +225,8 @@ TEST_P(Multipliers, LiftedStepsConvergeQuadratically) {
   Prepared prepared(from);
   const Eigen::VectorXd step = disturbance(from, 1e-4 * from.distance);
   EnvelopeState state = prepared.evaluator.at(moved(from.packing, step), forces_after(prepared.state, step));
-  DefiniteSolver solver;
+  BlockCholesky complete;
+  DefiniteSolver solver(complete);
   const double k0 = state.value.mean_force / from.distance;
   std::vector<double> wrong;
   for (int k = 0; k < 4; ++k) {
