@@ -10,6 +10,7 @@
 #include "tasks/io/interrupt.hpp"
 #include "tasks/io/memory.hpp"
 #include "tasks/io/place.hpp"
+#include "tasks/manifest/cohesion.hpp"
 #include "tasks/run/graph.hpp"
 #include "tasks/tables/table_of.hpp"
 #include "tasks/tables/tables.hpp"
@@ -82,6 +83,9 @@ ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   if (!arguments.only.empty()) recorded_name(arguments.directory, arguments.only);
   const auto lock = lock_results(arguments.directory, DirectoryLock::Kind::exclusive);
   const auto before = own_manifest(arguments.directory);
+  // A manifest with such a measure would not be accepted by any later command.
+  if (const auto problem = problem_of_measures(before, arguments.add))
+    throw InputError({arguments.directory, "", *problem, "", "", "remove the measure from --add"});
   const auto manifest = with_measures(before, arguments.add);
   const Plan plan(manifest);
   // Find impossible measures before anything is written.

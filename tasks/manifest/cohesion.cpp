@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 
 #include "engine/packing/cohesion.hpp"
 
@@ -24,15 +26,20 @@ void refuse_other_solids(const JsonPlace& root, const Manifest& manifest) {
   }
 }
 
-/// Measures that need repulsive forces or a jamming density.
+/// The problem of a measure that needs repulsive forces or a jamming density; nullopt for other measures.
+std::optional<std::string> problem_at_zero_pressure(Measure what) {
+  if (definition_of(what).at_zero_pressure) return std::nullopt;
+  return fmt::format("the measure {} is not possible at zero pressure: it needs repulsive forces or a jamming density",
+                     to_string(what));
+}
+
 void refuse_measures(const JsonPlace& root, const Manifest& manifest) {
   for (const auto what : manifest.measures) {
-    if (definition_of(what).at_zero_pressure) continue;
+    const auto problem = problem_at_zero_pressure(what);
+    if (!problem) continue;
     root.attempt([&] {
-      root.at("measure").refuse_with_remedy(
-          fmt::format("the measure {} is not possible at zero pressure: it needs repulsive forces or a jamming density",
-                      to_string(what)),
-          "remove the measure, or set /protocol/cohesion/until to \"decompression\"");
+      root.at("measure").refuse_with_remedy(*problem,
+                                            "remove the measure, or set /protocol/cohesion/until to \"decompression\"");
     });
   }
 }
@@ -67,6 +74,16 @@ void check_cohesion(const JsonPlace& root, const Manifest& manifest, const std::
   });
   refuse_measures(root, manifest);
   root.attempt([&] { refuse_goal(root, manifest); });
+}
+
+std::optional<std::string> problem_of_measures(const Manifest& manifest, const std::vector<Measure>& measures) {
+  const auto sets = option_sets(manifest);
+  const auto ends = [](const OptionSet& set) { return ends_at_zero_pressure(set.options); };
+  if (std::none_of(sets.begin(), sets.end(), ends)) return std::nullopt;
+  for (const auto what : measures) {
+    if (auto problem = problem_at_zero_pressure(what)) return problem;
+  }
+  return std::nullopt;
 }
 
 }  // namespace isojam

@@ -14,14 +14,18 @@ namespace {
 
 constexpr std::string_view cell_limit_remedy = "use more particles";
 
+StopReason end_of_last_step(const Json& record) {
+  const auto& stopped = record.at("path").back().at("stopped").get_ref<const std::string&>();
+  return from_string<StopReason>(stopped).value_or(StopReason::not_called);
+}
+
 /// The change of the manifest after which a decompression probably finds more states. Empty if none is known.
 std::string remedy_of_decompression(const Json& record) {
   const auto& path = record.at("path");
   // If solution branches ended, a change of the manifest only selects other branches at random.
   if (std::any_of(path.begin(), path.end(), [](const Json& step) { return step.contains("lost"); })) return "";
   const bool multipliers = record.at("spec").at("minimiser").at("method") == to_string(Method::multipliers);
-  const auto stopped = from_string<StopReason>(path.back().at("stopped").get_ref<const std::string&>());
-  switch (stopped.value_or(StopReason::not_called)) {
+  switch (end_of_last_step(record)) {
     case StopReason::budget:
       return multipliers ? "increase max_evaluations" : "increase max_evaluations, or use the method multipliers";
     case StopReason::line_search_failed: return multipliers ? "" : "use the method multipliers";
@@ -34,6 +38,15 @@ std::string remedy_of_decompression(const Json& record) {
     case StopReason::energy_change: return "decrease final_distance, or increase target_energy";
     default: return "";
   }
+}
+
+/// True if the run relaxes to zero pressure and has no decompression. A record does not contain settings of cohesion that
+/// have their default values.
+bool is_to_zero_pressure(const Json& record) {
+  const Json::json_pointer cohesion("/spec/protocol/cohesion");
+  if (!record.contains(cohesion)) return false;
+  const auto& settings = record.at(cohesion);
+  return settings.value("until", "") == to_string(CohesionUntil::end) && settings.value("strength", 0.0) > 0;
 }
 
 struct Explanation {
@@ -51,6 +64,9 @@ std::optional<Explanation> explanation_of(JamStatus status, const Json& record) 
       return Explanation{"the cell became so small or skew that a particle can touch two images of another",
                          std::string(cell_limit_remedy)};
     case JamStatus::not_jammed:
+      if (is_to_zero_pressure(record))
+        return Explanation{"no equilibrium at zero pressure was found",
+                           end_of_last_step(record) == StopReason::budget ? "increase max_evaluations" : ""};
       return Explanation{"decompression found fewer than two states", remedy_of_decompression(record)};
     case JamStatus::detached:
       return Explanation{"no particles touch at zero pressure", "increase the strength or the range of the cohesion"};

@@ -5,6 +5,7 @@
 // - If there are several errors, each has a line with the file. Warnings are printed in addition to OK.
 // - Usage errors, and paths that cannot be read or written, end with exit 2 and one error. Nothing is written.
 // - A manifest with very many keys does not block the program.
+// - A measure that packings at zero pressure cannot have is not added to their records.
 // - For an unknown command or option, the message suggests the most similar one. For a missing argument or value, or
 //   one that is too many, it names this argument or value.
 // - A missing or empty directory gives the same error in every command.
@@ -104,6 +105,25 @@ TEST(Program, WarnsOfUnsuitableSettings) {
   EXPECT_EQ(lines_of(validate.err), 2) << validate.err;
   for (const std::string key : {"final_distance", "max_density"})
     EXPECT_NE(validate.err.find("isojam: warning: m.json: /protocol/" + key + ": "), std::string::npos) << validate.err;
+}
+
+TEST(Program, AMeasureThatIsImpossibleAtZeroPressureIsNotAdded) {
+  const TemporaryDirectory directory;
+  auto manifest = test::good_manifest();
+  manifest["sweep"] = {{"solid", {"octahedron"}}, {"particles", {64}}};
+  // A record of a failed replicate is sufficient.
+  manifest["protocol"] = {{"cohesion", {{"strength", 1e-5}, {"until", "end"}}}, {"max_steps", 1}};
+  manifest["measure"] = {"contacts"};
+  test::write_text(directory / "m.json", manifest.dump());
+  EXPECT_EQ(isojam({"run", "m.json", "-o", "results"}, directory.path()).exit_code, 1);
+  const auto before = files_below(directory.path());
+  const auto refused = isojam({"measure", "results", "--add", "order,modes"}, directory.path());
+  EXPECT_EQ(refused.exit_code, 65);
+  EXPECT_EQ(
+      refused.err,
+      "isojam: error: results: the measure modes is not possible at zero pressure: it needs repulsive forces or a "
+      "jamming density; remove the measure from --add\n");
+  EXPECT_EQ(files_below(directory.path()), before);
 }
 
 TEST(Program, AHundredThousandUnknownKeysAreRefused) {

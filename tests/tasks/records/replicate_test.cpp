@@ -86,6 +86,20 @@ TEST(Replicate, MessagesOfOtherFailuresStateTheRemedyForTheLastStep) {
   EXPECT_EQ(failure_text(make_record(outcome)), outcome.failure->why + "; use more particles");
 }
 
+TEST(Replicate, AMissingEquilibriumAtZeroPressureIsNamed) {
+  auto json = test::tiny_manifest();
+  json["sweep"]["particles"] = {32};
+  json["protocol"]["cohesion"] = {{"strength", 1e-4}, {"until", "end"}};
+  json["measure"] = {"contacts"};
+  auto outcome = test::made_up_outcome(Plan(parse_manifest(json.dump(), "m.json")).at(0, 0));
+  outcome.jam.status = JamStatus::not_jammed;
+  outcome.jam.path.back().summary.reason = StopReason::budget;
+  outcome.failure = failure_of(outcome.jam);
+  const auto text = failure_text(make_record(outcome));
+  EXPECT_TRUE(text.starts_with("no equilibrium at zero pressure was found (4 steps, density ")) << text;
+  EXPECT_TRUE(text.ends_with("); increase max_evaluations")) << text;
+}
+
 TEST(Replicate, StatesOutsideTheFitWindowAreFlagged) {
   const auto outside = try_with({{"fit_window", 0.02}});
   ASSERT_FALSE(outside.outcome.failure) << outside.outcome.failure->why;
