@@ -69,7 +69,7 @@ void refuse_one_after_the_other(int n, std::size_t threads) {
   const long asked = calls;
   const Eigen::VectorXd expected = fresh.solve(b);
   long tried = 0, short_of_memory = 0;
-  for (long k = 1; k <= asked; k += std::max(1L, asked / 400)) {
+  for (long k = 1; k <= asked; k += std::max(1L, asked / 200)) {
     ++tried;
     BlockCholesky factor;
     ASSERT_EQ(factorise(factor, before, 0), Came::through);

@@ -307,8 +307,12 @@ TEST(Measure, DegenerateStatesHaveValuesOrReasons) {
       {"one contact", row(SolidKind::cube, 2, 0.99, 8)},
       {"three, two contacts", row(SolidKind::dodecahedron, 3, 1.9 * platonic(SolidKind::dodecahedron).inradius(), 8)},
       {"crystal of cubes", crystal_of_cubes()}};
+  // For the crystal, the modes by differences take longer than all other measures together.
+  std::vector<Measure> fast(all_measures.begin(), all_measures.end());
+  std::erase(fast, Measure::difference_modes);
   for (const auto& [name, packing] : cases) {
-    auto outcome = measured_outcome(result_of(packing));
+    const bool is_crystal = name == cases.back().first;
+    auto outcome = is_crystal ? measured_outcome(result_of(packing), fast) : measured_outcome(result_of(packing));
     outcome.failure = Failure{"jam", "made up"};
     const auto record = test::record_on_disk(outcome);
     SCOPED_TRACE(name);
@@ -319,7 +323,7 @@ TEST(Measure, DegenerateStatesHaveValuesOrReasons) {
     const auto text = state.dump();
     EXPECT_EQ(text.find("nan"), std::string::npos) << name;
     EXPECT_EQ(text.find("inf,"), std::string::npos) << name;
-    if (name != cases.back().first) continue;
+    if (!is_crystal) continue;
     EXPECT_EQ(state.at("contacts").at("Z"), 26) << name;
     EXPECT_GT(state.at("order").at("S").get<double>(), 0.999) << name;
   }

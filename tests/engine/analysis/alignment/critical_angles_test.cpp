@@ -184,7 +184,7 @@ TEST_P(CriticalAnglesOf, AreTheLargestOverAllOrientations) {
 TEST_P(CriticalAnglesOf, BoundTheContactsThatTheKernelFinds) {
   const int valence = std::popcount(constructed::vertex_site(solid, 0).edges);
   int vertex_face = 0, edge_edge = 0;
-  for (int trial = 0; trial < 40000; ++trial) {
+  for (int trial = 0; trial < 20000; ++trial) {
     const Vector3d lab = constructed::random_direction(random) * (2 * solid.circumradius() * random.uniform());
     const RelativePose pose =
         relative_pose(constructed::random_orientation(random), constructed::random_orientation(random), lab);
@@ -253,7 +253,7 @@ CriticalAngles searched(const ConvexSolid& solid, RandomStream& random) {
     const Vector3d direction = (solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized();
     along[edge.head].push_back(direction), along[edge.tail].push_back(direction);
   }
-  for (int k = 0; k < 400000; ++k) {
+  for (int k = 0; k < 100000; ++k) {
     const Vector3d d = Vector3d(random.normal(), random.normal(), random.normal()).normalized();
     std::size_t outermost = 0;
     for (std::size_t v = 1; v < solid.vertices().size(); ++v) {

@@ -1,7 +1,7 @@
 // Properties tested here, for every Platonic solid:
-// 1. The Kolmogorov–Smirnov test confirms the closed forms with a million random orientations for θ_ff and θ_ef, and
-//    with a million rotations about an edge for θ_ff under the constraint that this edge lies in the face. The test
-//    would fail for another solid.
+// 1. The Kolmogorov–Smirnov test confirms the closed forms with 100 000 random orientations for θ_ff and θ_ef, and with
+//    as many rotations about an edge for θ_ff under the constraint that this edge lies in the face. The test would fail
+//    for another solid.
 // 2. The closed forms increase from 0 to 1 continuously. At small angles they are the paper's: p(θ_ff) ∝ sin θ_ff on
 //    all of [0, θ_c,min], p(θ_ef) → const, p(θ_ff) = const under the constraint.
 // 3. The sampled angles are those that alignment() finds if the solid is pressed on a face.
@@ -46,7 +46,7 @@ using oracle::sample_unconstrained;
 using std::numbers::pi;
 using Angle = double AlignmentAngles::*;
 
-constexpr int million = 1000000;
+constexpr int many = 100000;
 /// Allowed deviation of a stratified sample of size n: six times n^(-3/4).
 const double of_sampling = 6 * std::pow(65536, -.75);
 
@@ -58,7 +58,7 @@ std::vector<double> column(const std::vector<AlignmentAngles>& sample, Angle ang
 
 /// P-value of the Kolmogorov–Smirnov test.
 double agreement(const EmpiricalCdf& drawn, const std::function<double(double)>& distribution) {
-  return kolmogorov_probability(kolmogorov_distance(drawn, distribution), million);
+  return kolmogorov_probability(kolmogorov_distance(drawn, distribution), many);
 }
 
 class RandomAlignmentOf : public testing::TestWithParam<SolidKind> {
@@ -68,8 +68,8 @@ class RandomAlignmentOf : public testing::TestWithParam<SolidKind> {
   RandomStream random{51, static_cast<std::uint64_t>(GetParam())};
 };
 
-TEST_P(RandomAlignmentOf, AMillionOrientationsFollowTheClosedForms) {
-  const std::vector<AlignmentAngles> sample = sample_unconstrained(solid, million, random);
+TEST_P(RandomAlignmentOf, RandomOrientationsFollowTheClosedForms) {
+  const std::vector<AlignmentAngles> sample = sample_unconstrained(solid, many, random);
   const EmpiricalCdf face_face = empirical_cdf(column(sample, &AlignmentAngles::face_face));
   const EmpiricalCdf edge_face = empirical_cdf(column(sample, &AlignmentAngles::edge_face));
   const double ff = agreement(face_face, [&](double theta) { return ideal.face_face(theta); });
@@ -77,13 +77,13 @@ TEST_P(RandomAlignmentOf, AMillionOrientationsFollowTheClosedForms) {
   std::printf("%s: P %.3f for θ_ff, %.3f for θ_ef\n", solid.name().c_str(), ff, ef);
   EXPECT_GT(ff, 1e-3);
   EXPECT_GT(ef, 1e-3);
-  // With this number of orientations, the test detects an error of one per cent.
-  EXPECT_LT(agreement(face_face, [&](double theta) { return ideal.face_face(1.01 * theta); }), 1e-6);
-  EXPECT_LT(agreement(edge_face, [&](double theta) { return ideal.edge_face(1.01 * theta); }), 1e-6);
+  // With this number of orientations, the test detects an error of three per cent.
+  EXPECT_LT(agreement(face_face, [&](double theta) { return ideal.face_face(1.03 * theta); }), 1e-6);
+  EXPECT_LT(agreement(edge_face, [&](double theta) { return ideal.edge_face(1.03 * theta); }), 1e-6);
 }
 
-TEST_P(RandomAlignmentOf, AMillionRotationsFollowTheConstrainedForm) {
-  const std::vector<AlignmentAngles> sample = sample_edge_constrained(solid, million, random);
+TEST_P(RandomAlignmentOf, RandomRotationsFollowTheConstrainedForm) {
+  const std::vector<AlignmentAngles> sample = sample_edge_constrained(solid, many, random);
   const EmpiricalCdf face_face = empirical_cdf(column(sample, &AlignmentAngles::face_face));
   EXPECT_GT(agreement(face_face, [&](double theta) { return ideal.constrained_face_face(theta); }), 1e-3);
   EXPECT_LT(agreement(face_face, [&](double theta) { return ideal.face_face(theta); }), 1e-6);
@@ -289,12 +289,12 @@ TEST(RandomAlignment, OfOtherSolidsAgreesWithRandomSamples) {
     const std::string_view name = to_string(each);
     const RandomAlignment ideal(solid);
     ASSERT_TRUE(ideal.is_sampled()) << name;
-    const std::vector<AlignmentAngles> free = sample_unconstrained(solid, million, random);
-    const std::vector<AlignmentAngles> held = sample_edge_constrained(solid, million, random);
+    const std::vector<AlignmentAngles> free = sample_unconstrained(solid, many, random);
+    const std::vector<AlignmentAngles> held = sample_edge_constrained(solid, many, random);
     const auto distance = [](const std::vector<double>& drawn, const std::function<double(double)>& distribution) {
       return kolmogorov_distance(empirical_cdf(drawn), distribution);
     };
-    const double chance = 1.63 / std::sqrt(million), allowed = chance + of_sampling;  // 1 % level
+    const double chance = 1.63 / std::sqrt(many), allowed = chance + of_sampling;  // 1 % level
     EXPECT_LE(distance(column(free, &AlignmentAngles::face_face), [&](double t) { return ideal.face_face(t); }),
               allowed)
         << name;

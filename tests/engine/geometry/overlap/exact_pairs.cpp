@@ -163,10 +163,7 @@ Approach edge_in_face(const ConvexSolid& a, const ConvexSolid& b, double tilt, R
   return result;
 }
 
-double exact_volume(const PosedPair& pair) { return static_cast<double>(exact(pair).volume); }
-double found_volume(const PosedPair& pair) { return found(pair).volume; }
-
-std::optional<PosedPair> at_volume(Approach approach, double volume, double (*measure)(const PosedPair&)) {
+std::optional<PosedPair> at_volume(Approach approach, double volume) {
   PosedPair& pair = approach.pair;
   // At the displacement `from`, or deeper by the size of the smaller solid, V is larger than `volume`.
   double far = pair.a.circumradius() + pair.b.circumradius();
@@ -174,7 +171,7 @@ std::optional<PosedPair> at_volume(Approach approach, double volume, double (*me
   for (int k = 0; k < 90; ++k) {
     const double middle = (near + far) / 2;
     pair.at_b.position = approach.from + middle * approach.outward;
-    const double reached = measure(pair);
+    const double reached = found(pair).volume;
     if (reached > volume / 2 && reached < 2 * volume) return pair;
     (reached > volume ? near : far) = middle;
   }

@@ -56,13 +56,9 @@ Approach edge_over_edge(const ConvexSolid& a, const ConvexSolid& b, RandomStream
 /// An edge of B in the middle of a face of A, parallel to the face within `tilt`.
 Approach edge_in_face(const ConvexSolid& a, const ConvexSolid& b, double tilt, RandomStream& random);
 
-/// The volume from exact(), and the one from found(), which is much faster for solids with many faces.
-double exact_volume(const PosedPair& pair);
-double found_volume(const PosedPair& pair);
-
-/// The pair at the distance where V equals `volume` within a factor of 2; nullopt if V is discontinuous there.
-std::optional<PosedPair> at_volume(Approach approach, double volume,
-                                   double (*measure)(const PosedPair&) = exact_volume);
+/// The pair at the distance where V of found() equals `volume` within a factor of 2; nullopt if V is discontinuous
+/// there.
+std::optional<PosedPair> at_volume(Approach approach, double volume);
 
 /// The dual of `solid`: for each face with the unit normal n and the distance h from the centre, it has the vertex n/h.
 /// The dual of a solid with many faces has many vertices.

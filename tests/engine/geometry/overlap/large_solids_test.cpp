@@ -165,7 +165,7 @@ TEST(LargeSolids, AreRightWhereFacesMeet) {
 
 TEST(LargeSolids, AreRightWhereCornersAndEdgesMeet) {
   RandomStream random{99};
-  PointedContacts contacts{.with_features = true, .measure = found_volume};
+  PointedContacts contacts{.with_features = true};
   FeatureSet faces{}, edges{};
   for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b) {
     for (const double volume : {1e-3, 1e-7, 1e-11, 1e-15}) {
@@ -229,7 +229,7 @@ TEST(LargeSolids, HaveAllBlocksOfTheHessian) {
   RandomStream random{101};
   double worst = 0;
   for (const Large& large : large_solids()) {
-    const auto touching = at_volume(random_approach(large.solid, large.solid, random), 1e-3, found_volume);
+    const auto touching = at_volume(random_approach(large.solid, large.solid, random), 1e-3);
     ASSERT_TRUE(touching) << large.solid.name();
     const double here = worst_block(*touching);
     EXPECT_LE(here, 1e-8) << large.solid.name();

@@ -46,15 +46,14 @@ void expect_flat_contacts_right(const Family& for_each_pair, RandomStream& rando
 
 /// Tests of contacts with a given V, such as corners over faces, with clipping in quadruple precision as reference.
 struct PointedContacts {
-  double limit = 1e-12;                                ///< largest error of V, S and M
-  bool with_features = false;                          ///< true if the features must be those that clipping finds
-  double (*measure)(const PosedPair&) = exact_volume;  ///< V of a pair
-  int pairs = 0, skipped = 0, clipped = 0;             ///< skipped: without a pair with this V
+  double limit = 1e-12;                     ///< largest error of V, S and M
+  bool with_features = false;               ///< true if the features must be those that clipping finds
+  int pairs = 0, skipped = 0, clipped = 0;  ///< skipped: without a pair with this V
   double worst = 0;
 
   /// Tests a pair with this V. Returns its overlap; nullopt if there is no such pair.
   std::optional<Overlap> expect_right(const Approach& approach, double volume) {
-    const auto touching = at_volume(approach, volume, measure);
+    const auto touching = at_volume(approach, volume);
     if (!touching) {
       ++skipped;
       return std::nullopt;
