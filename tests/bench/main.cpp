@@ -26,7 +26,9 @@ int run(int argc, char** argv) {
   // The options of the command line follow these and override them.
   std::string defaults[] = {"--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=9",
                             "--benchmark_min_time=0.03"};
-  std::vector<char*> arguments{argv[0]};
+  std::vector<char*> arguments;
+  arguments.reserve(static_cast<std::size_t>(argc) + std::size(defaults) + 1);
+  arguments.push_back(argv[0]);
   for (std::string& option : defaults) arguments.push_back(option.data());
   arguments.insert(arguments.end(), argv + 1, argv + argc);
   const std::string path = take_ratios_path(arguments);

@@ -25,8 +25,8 @@ double error(double found, const Real& exact) { return std::abs(static_cast<doub
 constexpr double last_bit = 3e-16;
 
 TEST(Distributions, StudentsT) {
-  for (const long degrees : {1, 2, 3, 4, 5, 6, 7, 14, 15, 31, 100, 999, 100000}) {
-    for (const double share : {.5, .9, .95, .999}) {
+  for (const long degrees : {1, 2, 3, 4, 7, 15, 100, 100000}) {
+    for (const double share : {.5, .95, .999}) {
       const Real exact = quantile(boost::math::students_t_distribution<Real>(Real(degrees)), (1 + Real(share)) / 2);
       EXPECT_LE(error(student_two_sided(share, degrees), exact), last_bit) << degrees << " degrees, " << share;
     }

@@ -131,7 +131,7 @@ TEST_P(Multipliers, SmallStepsNeedFewHessians) {
 TEST_P(Multipliers, RelaxNeedsNoEquilibriumToStartFrom) {
   for (const State& from : states(GetParam())) {
     const double ratio = 0.1, force = PackingEnergy().evaluate(from.packing).mean_force;
-    for (const double guess : {0.2, 1.0, 5.0}) {
+    for (const double guess : {0.2, 5.0}) {
       Packing packing = strained_to(from.packing, from.packing.density() - ratio * from.distance);
       PackingEnergy energy;
       const MinimiseSummary summary = relax_to_equilibrium(packing, guess * force * std::pow(1 - ratio, 5),

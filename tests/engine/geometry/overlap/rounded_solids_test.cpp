@@ -2,7 +2,7 @@
 // the given vertices. They have origins up to 1e8 sizes away, sizes of 1e-9 … 1e9, vertices written with 6 … 15 digits
 // or in single precision and joined, and size ratios up to 10. The reference is clipping in quadruple precision, which
 // uses the planes of the faces and no vertices:
-// - For more than 20 000 face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of
+// - For more than 10 000 face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of
 //   at most 1e-13, half of them at most 1e-15.
 // - For corners in faces and crossed edges with V = 1e-3 … 1e-15, errors are at most 5e-12.
 
@@ -88,12 +88,12 @@ TEST(RoundedSolids, AreRightWhereFacesMeet) {
   expect_flat_contacts_right(
       [&](const auto& visit) {
         for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b) {
-          for (int k = 0; k < 4; ++k) visit(a, b);
-          pairs += 4 * 9;
+          for (int k = 0; k < 2; ++k) visit(a, b);
+          pairs += 2 * 9;
         });
       },
       random);
-  EXPECT_GT(pairs, 20000);
+  EXPECT_GT(pairs, 10000);
 }
 
 TEST(RoundedSolids, AreRightWhereCornersAndEdgesMeet) {
