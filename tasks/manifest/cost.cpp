@@ -114,7 +114,7 @@ constexpr double packing_text = 340, particle_text = 600, step_text = 400, state
 constexpr double particle_bytes = 130e3;
 /// Bytes of memory for the factors of the Hessian and their update matrices: factor_bytes N^factor_power. Fill-in grows
 /// faster than N.
-constexpr double factor_bytes = 1.3e3, factor_power = 1.6;
+constexpr double factor_bytes = 800, factor_power = 1.6;
 
 }  // namespace
 
