@@ -47,11 +47,11 @@ def summary(data):
         rows.append([solid, interval(density), f"{signed(low, 3)} … {signed(high, 3)}", spread(density),
                      said(paper_density(solid, 400)), interval(contacts_at_jamming(data, solid, 400)),
                      interval(data.constraints(solid, size, "trough")), interval(data.constraints(solid, 400, "trough")),
-                     interval(data.constraints(solid, size, "fit")),
+                     interval(data.constraints(solid, size, "fit")), interval(data.constraints(solid, 400, "fit")),
                      number(12 - 4 / size, 2), minima_text(data, solid, 400)])
     return table(["solid", "φ_J, N = 400", "change of φ_J with other protocols", "one more packing", "φ_J, paper",
-                  "Z_J, N = 400", f"C by trough, N = {size}", "C by trough, N = 400", f"C by fit, N = {size}", f"12 − 4/N, N = {size}",
-                  "minima with three zero modes"], rows)
+                  "Z_J, N = 400", f"C by trough, N = {size}", "C by trough, N = 400", f"C by fit, N = {size}",
+                  "C by fit, N = 400", f"12 − 4/N, N = {size}", "minima with three zero modes"], rows)
 
 
 def densities(data):
@@ -63,7 +63,7 @@ def densities(data):
         rows.append([f"{solid} {n}", counted(ours), spread(ours), said(figure),
                      f"{signed(off[0], 4)} ({signed(off[1], 1)})" if off else "–", within(data, figure, ours),
                      f"{number(dice[0], 2)} ± {number(dice[1], 2)}"])
-    return table(["solid, N", "φ_J", "one more packing", "paper", "paper − ours (deviate)", "paper's value is in our",
+    return table(["solid, N", "φ_J", "one more packing", "paper", "paper − ours (deviate)", "overlaps our",
                   "dice"], rows)
 
 
@@ -291,7 +291,8 @@ def cost(data):
 
 TABLES = (
     ("Jamming density", """The deviate is the offset in standard deviations of a normal distribution with the same
-     probability. It assumes that the paper's value is the φ_J of one packing like ours. The dice are rounded dice in a
+     probability. It assumes that the paper's value is the φ_J of one packing like ours, with the paper's interval. The
+     column after it states which of our intervals overlaps that of the paper. The dice are rounded dice in a
      box, which the paper quotes.""", densities),
     ("Finite-size effect of the jamming density", "The interval is that of Welch's t.", sizes),
     ("Shift of the jamming density by the compression protocol", """Paired differences of φ_J in units of 10⁻⁴ (N = 100,

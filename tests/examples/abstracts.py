@@ -155,7 +155,7 @@ def at_all(rows, solid, column):
 
 
 def shifts(rows):
-    """Mean paired shifts of φ_J by other protocols, with at least three pairs."""
+    """The lowest mean paired shift of φ_J by another protocol, with at least three pairs."""
     found = []
     for solid in SOLIDS:
         standard = (False, 0.02, 2000 if solid == "tetrahedron" else 500)  # compression protocol of the main studies
@@ -166,24 +166,21 @@ def shifts(rows):
                      if s == setting and (standard, i) in varied]
             if len(pairs) >= 3:
                 found.append(numpy.mean(pairs))
-    return min([0, *found]), max([0, *found])
+    return min([0, *found])
 
 
 def paper_numbers(rows, pooled, size):
     """Recomputed numbers of the paper's abstract, in their order: (name, value, allowed difference)."""
     z = [contacts_at_jamming(rows, solid) for solid in SOLIDS]
     phi = {key: [density_of(r) for r in of(rows, *key)] for key in PAPER}
-    low, high = shifts(rows)
-    return [("year", 2011, 0), ("Z_J, least", min(z), 0.051), ("Z_J, greatest", max(z), 0.051),
-            ("12", 12, 0),
+    return [("year", 2011, 0), ("12", 12, 0), ("Z_J, least", min(z), 0.051), ("Z_J, greatest", max(z), 0.051),
+            ("12", 12, 0), ("N", size, 0),
             *((f"C by trough, {s}", constraints_by_trough(rows, pooled, s, size), 0.12) for s in SOLIDS),
-            ("C within the trough", max(
-                constraints_by_trough(rows, pooled, s, size, 0.2) - constraints_by_trough(rows, pooled, s, size, -0.2)
-                for s in SOLIDS) / 2, 0.06), ("N", size, 0), ("N", 400, 0),
+            ("N", 400, 0),
             *((f"C by trough, {s}, N = 400", constraints_by_trough(rows, pooled, s, 400), 0.2) for s in SOLIDS[1:]),
-            ("Table", 1, 0), ("12", 12, 0), ("12", 12, 0),
+            ("12", 12, 0), ("12", 12, 0), ("12", 12, 0),
             ("largest offset of φ_J", max(abs(PAPER[k] - numpy.mean(v)) for k, v in phi.items()), 0.00051),
-            ("shift, least", low, 0.00051), ("shift, greatest", high, 0.00051)]
+            ("shift, least", shifts(rows), 0.00051)]
 
 
 def limit_error(rows, solid):
