@@ -318,7 +318,8 @@ TABLES = (
      differences. With N = 400 and Δφ = 0.01, it found 5.3 % of
      unstable modes in tetrahedra. In octahedra it found less than 1.2 %.""", unstable),
     ("Is region 2 of c(θ_ff) uniform?", """The paper states that θ_ff is uniform between 1° and the smallest critical
-     angle. The ratio of densities would then be 1. Its interval is that of Poisson noise.""", uniformity),
+     angle. Both halves of this range would then have the same density. The interval of the ratio is that of Poisson
+     noise.""", uniformity),
     ("Order in which regions emerge", """The paper states that region 1 of c(θ_ff), the angles below 1°, emerges only after
      c(θ_ef) is hyper-random, that is, larger than for random contacts at small angles. Packings were compressed to E/N =
      5·10⁻⁴ (`emergence.json`). Region 1 exists if the first ratio is above 1. c(θ_ef) is hyper-random if the second ratio
