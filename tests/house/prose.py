@@ -4,7 +4,8 @@ Pages, comments and messages are checked. If FILEs are given, only these are che
 - No comment or sentence begins without a subject ("Of ...", "What ...", "Those ..." and others in OPENINGS).
 - No text contains a word in WORDS, because the project uses another one.
 - A sentence in a page has at most 35 words and four numbers. In tables, the number of numbers is not limited.
-- No line of text in a page begins with an HTML comment, because renderers end the paragraph there.
+- No line of text in a page begins with an HTML comment, because renderers end the paragraph there. No line inside a
+  paragraph begins with ">", "+" or a number and a full stop, because they make it a quotation or a list.
 
 A line of prose_exceptions.txt exempts one text: `file: text: reason`.
 
@@ -163,6 +164,11 @@ def findings_of_page(text):
     for number, is_code, line in lines_of(text):
         if not is_code and re.match(r"\s*(?:[-*] |\d+\. )?<!-- (?!block|end)", line):
             yield number, "begins with an HTML comment", line
+    before = ""
+    for number, is_code, line in lines_of(text):
+        if not is_code and re.match(r"(?:[>+]|\d+\.) ", line) and re.match(r"(?![-*>+] |\d+\. )\S", before):
+            yield number, "begins like a list or a quotation", line
+        before = "" if is_code else line
 
 
 def findings_of_file(path):

@@ -17,6 +17,8 @@ BAD = (
     ("page.md", "There are 1, 2, 3, 4 and 5 of them.\n", "numbers, at most"),
     ("page.md", "The mean is\n<!-- = total -->5<!-- / --> today.\n", "HTML comment"),
     ("page.md", "- <!-- = total -->5<!-- / --> packings jam.\n", "HTML comment"),
+    ("page.md", "A tilt is stiff if the ratio\n> 10 is reached.\n", "list or a quotation"),
+    ("page.md", "The ratio would then be\n1. Its interval is wide.\n", "list or a quotation"),
     ("source.cpp", "// Those of the last step.\nint a = 0;\n", "opens without a subject"),
     ("source.cpp", "int a = 0;  ///< what it stands for; whoever reckons it\n", "compute"),
     ("tasks/source.cpp", 'fail("the state is not certified in this file");\n', "minimum"),
@@ -27,6 +29,7 @@ BAD = (
 GOOD = (
     ("page.md", "# What it is\n\nThe density is 0.653 ± 0.003.\nWhat does it cost? One second.\n"),
     ("page.md", "```\nOf this listing nothing is checked: 1 2 3 4 5 6 7\n```\n"),
+    ("page.md", "1. The first entry\n   has two lines.\n2. The second has one.\n\n> A quotation\n> has two.\n"),
     ("page.md", "| 1 | 2 | 3 | 4 | 5 | 6 |\n"),
     ("source.cpp", 'int a = 0;  ///< contacts of a particle\nconst char* b = "Of";\n'),
 )
