@@ -40,8 +40,8 @@ std::string remedy_of_decompression(const Json& record) {
   }
 }
 
-/// True if the run relaxes to zero pressure and has no decompression. A record does not contain settings of cohesion that
-/// have their default values.
+/// True if the run relaxes to zero pressure and has no decompression. A record does not contain settings of cohesion
+/// that have their default values.
 bool is_to_zero_pressure(const Json& record) {
   const Json::json_pointer cohesion("/spec/protocol/cohesion");
   if (!record.contains(cohesion)) return false;

@@ -16,8 +16,8 @@ namespace isojam {
 /// complete factorisation.
 class DefiniteSolver {
  public:
-  /// `complete` is the memory for complete factorisations, the largest object of a large system. Several solvers can use
-  /// the same one in turn.
+  /// `complete` is the memory for complete factorisations, the largest object of a large system. Several solvers can
+  /// use the same one in turn.
   explicit DefiniteSolver(BlockCholesky& complete) : complete_(complete) {}
 
   /// Returns nullopt if the matrix is found to be not positive definite. Conjugate gradients can overlook this. They
