@@ -80,11 +80,11 @@ class Matching {
 
  private:
   std::optional<Match> match_by_vertices(const ForeignPacking::Type& type) const {
-    if (const auto match = match_by_shape(type.vertices, mixture_)) return match;
+    if (auto match = match_by_shape(type.vertices, mixture_)) return match;
     const auto corners = hull_corners(type.vertices);
     const auto inner = type.vertices.size() - corners.size();
     if (corners.empty() || inner == 0) return std::nullopt;
-    const auto match = match_by_shape(corners, mixture_);
+    auto match = match_by_shape(corners, mixture_);
     if (match && notes_)
       notes_->push_back(
           fmt::format("the shape of type {} has {} that {} no corner of its convex hull; isojam uses the "

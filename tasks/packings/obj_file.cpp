@@ -15,6 +15,17 @@ std::size_t corner_of(const TextLines& lines, std::string_view word, std::size_t
   return static_cast<std::size_t>(index > 0 ? index - 1 : most + index);
 }
 
+void check_corners(const Mesh& mesh) {
+  for (const auto& face : mesh.faces) {
+    for (const auto point : face.points) {
+      if (point >= mesh.points.size())
+        throw ContentError(
+            fmt::format("the face refers to vertex {}, but there are {} vertices", point + 1, mesh.points.size()),
+            "correct the index", face.line);
+    }
+  }
+}
+
 }  // namespace
 
 Mesh read_obj(std::string_view text) {
@@ -42,14 +53,7 @@ Mesh read_obj(std::string_view text) {
       lines.refuse("curves and curved surfaces are not supported", "save the solid with flat faces");
     }
   }
-  for (const auto& face : mesh.faces) {
-    for (const auto point : face.points) {
-      if (point >= mesh.points.size())
-        throw ContentError(
-            fmt::format("the face refers to vertex {}, but there are {} vertices", point + 1, mesh.points.size()),
-            "correct the index", face.line);
-    }
-  }
+  check_corners(mesh);
   return mesh;
 }
 

@@ -83,10 +83,10 @@ struct Side {
 /// Checks a surface whose points are given in units of its diameter, relative to their mean.
 class Checks {
  public:
-  Checks(const Mesh& mesh, const Distinct& distinct, double merge) : given_(distinct.points) {
+  Checks(const Mesh& mesh, const Distinct& distinct, double merge)
+      : given_(distinct.points), diameter_(diameter_of(given_)) {
     Vector3d centre = Vector3d::Zero();
     for (const Vector3d& v : given_) centre += v / static_cast<double>(given_.size());
-    diameter_ = diameter_of(given_);
     if (!(diameter_ > 0)) throw NoSurface("all vertices are in one place", "", 0);
     welded_ = welded(given_, merge * diameter_);
     for (const Vector3d& v : given_) points_.emplace_back((v - centre) / diameter_);
@@ -283,7 +283,7 @@ class Checks {
 
   const std::vector<Vector3d>& given_;
   std::vector<Vector3d> points_, normals_;
-  double diameter_ = 0, tolerance_ = 0;
+  double diameter_, tolerance_ = 0;
   std::vector<std::size_t> welded_;  ///< for each point, the index of the point that replaces it
   std::vector<Loop> loops_;
   std::vector<std::size_t> lines_;

@@ -14,12 +14,14 @@ using Floats = float __attribute__((vector_size(lanes * sizeof(float))));
 using Doubles = double __attribute__((vector_size(lanes * sizeof(double))));
 
 /// Computes sum += block · x. `block` has six columns of eight rows.
-inline void add_product(const float* block, const float* x, Floats& sum) {
+inline void add_product(const float* block, const Floats& x, Floats& sum) {
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): from memory, an entry is copied to all lanes at once
+  const auto* const entries = reinterpret_cast<const float*>(&x);
 #pragma GCC unroll 6
   for (int k = 0; k < 6; ++k) {
     Floats column;
     std::memcpy(&column, block + lanes * k, sizeof column);
-    sum += column * x[k];
+    sum += column * entries[k];
   }
 }
 
@@ -130,25 +132,23 @@ Eigen::VectorXd IncompleteCholesky::solve(const Eigen::VectorXd& b) const {
   const double scale = b.lpNorm<Eigen::Infinity>();  // single precision has a small range
   if (!(scale > 0)) return Eigen::VectorXd::Zero(b.size());
   std::vector<Floats> work(static_cast<std::size_t>(n));
-  const auto entries = [&](int k) { return reinterpret_cast<float*>(&work[static_cast<std::size_t>(k)]); };
   for (int k = 0; k < n; ++k) {
     work[k] = Floats{};
-    for (int c = 0; c < rows; ++c) entries(k)[c] = static_cast<float>(b[6 * k + c] / scale);
+    for (int c = 0; c < rows; ++c) work[k][c] = static_cast<float>(b[6 * k + c] / scale);
   }
   for (int k = 0; k < n; ++k) {
     Floats y{};
-    add_product(inverse_[k].data(), entries(k), y);
+    add_product(inverse_[k].data(), work[k], y);
     work[k] = y;
     const Floats minus = -y;
     for (int at = begin_[k]; at < begin_[k + 1]; ++at)
-      add_product(upper_transposed_[at].data(), reinterpret_cast<const float*>(&minus), work[columns_[at]]);
+      add_product(upper_transposed_[at].data(), minus, work[columns_[at]]);
   }
   for (int k = n - 1; k >= 0; --k) {
     Floats sum{}, y{};
-    for (int at = begin_[k]; at < begin_[k + 1]; ++at)
-      add_product(upper_single_[at].data(), entries(columns_[at]), sum);
+    for (int at = begin_[k]; at < begin_[k + 1]; ++at) add_product(upper_single_[at].data(), work[columns_[at]], sum);
     const Floats rest = work[k] - sum;
-    add_product(inverse_transposed_[k].data(), reinterpret_cast<const float*>(&rest), y);
+    add_product(inverse_transposed_[k].data(), rest, y);
     work[k] = y;
     for (int c = 0; c < rows; ++c) x[6 * k + c] = scale * static_cast<double>(y[c]);
   }

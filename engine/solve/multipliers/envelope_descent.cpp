@@ -42,7 +42,8 @@ std::optional<EnvelopeState> EnvelopeDescent::step(const EnvelopeState& here, do
     shift_ = std::numeric_limits<double>::infinity();
     return std::nullopt;
   }
-  for (double more = 2; !must_stop(); more *= 2) {
+  double more = 2;
+  while (!must_stop()) {
     const KrylovStep step = model->step(shift_, longest);
     EnvelopeState there = evaluator_.at(moved(here.packing, step.step), forces_after(here, step.step));
     bool relaxed = false;
@@ -55,6 +56,7 @@ std::optional<EnvelopeState> EnvelopeDescent::step(const EnvelopeState& here, do
       return there;
     }
     shift_ = more * step.shift;
+    more *= 2;
   }
   return std::nullopt;
 }

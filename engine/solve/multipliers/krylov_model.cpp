@@ -93,8 +93,11 @@ std::optional<KrylovModel> KrylovModels::model(const BlockMatrix& matrix, const 
                                                MinimiseWork& work) {
   // A complete factorisation succeeds with any shift if the matrix is positive definite.
   shift_ = std::max({uses_complete_ ? 0 : fall * shift_, margin * negative_, shift});
-  for (; std::isfinite(shift_); shift_ *= growth) {
-    if (!factorise(matrix, work)) continue;
+  while (std::isfinite(shift_)) {
+    if (!factorise(matrix, work)) {
+      shift_ *= growth;
+      continue;
+    }
     const KrylovModel model(
         matrix, [&](const Eigen::VectorXd& b) { return uses_complete_ ? complete_.solve(b) : incomplete_.solve(b); },
         gradient, shift);
