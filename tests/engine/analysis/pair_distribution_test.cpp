@@ -24,8 +24,10 @@ using Eigen::Vector3d;
 Packing lattice(double spacing, const Vector3d& shift = Vector3d::Zero()) {
   RandomStream random({1, 1});
   Packing packing = random_packing(platonic(SolidKind::cube), 64, 1 / (spacing * spacing * spacing), random);
-  for (int k = 0; k < 64; ++k)
-    packing.poses[static_cast<std::size_t>(k)] = {spacing * Vector3d(k % 4, k / 4 % 4, k / 16) + shift};
+  for (int k = 0; k < 64; ++k) {
+    const int z = k / 16;
+    packing.poses[static_cast<std::size_t>(k)] = {spacing * Vector3d(k % 4, k / 4 % 4, z) + shift};
+  }
   return packing;
 }
 

@@ -63,7 +63,8 @@ TEST(HullTriangles, HaveNoPointAbove) {
   for (int k = 0; k < 10; ++k) expect_hull(on_sphere(50, random), "sphere");
   std::vector<Vector3d> grid, skew;
   for (int k = 0; k < 64; ++k) {
-    const Vector3d p(k % 4, k / 4 % 4, k / 16);
+    const int z = k / 16;
+    const Vector3d p(k % 4, k / 4 % 4, z);
     grid.push_back(p);
     skew.push_back({.1 * p.x() + .3 * p.y(), .7 * p.y() - .2 * p.z(), .3 * p.z() + .1 * p.x()});
   }

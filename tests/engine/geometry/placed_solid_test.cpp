@@ -155,11 +155,13 @@ TEST(DistancesTest, AChangedTableIsClassifiedAgain) {
   for_each_near_pair(4, [&](const Pair& pair) {
     const Placed placed(pair);
     Table table(placed.a, placed.b, placed.r);
-    const Distances<SmallSolids> before = table;
+    const auto edges = table.edges;
+    const auto nearest = table.nearest;
+    const double least_penetration = table.least_penetration;
     classify(pair.solid_a(), table);
-    EXPECT_EQ(table.edges, before.edges) << "nothing was changed: " << describe(pair);
-    EXPECT_EQ(table.nearest, before.nearest);
-    EXPECT_EQ(table.least_penetration, before.least_penetration);
+    EXPECT_EQ(table.edges, edges) << "nothing was changed: " << describe(pair);
+    EXPECT_EQ(table.nearest, nearest);
+    EXPECT_EQ(table.least_penetration, least_penetration);
     // If all entries are positive, everything is outside of all planes: no edge remains, and every plane separates.
     for (double& entry : table.memory) entry = std::abs(entry) + 1;
     classify(pair.solid_a(), table);

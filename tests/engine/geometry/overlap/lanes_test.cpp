@@ -112,7 +112,8 @@ void expect_tags(std::uint64_t seed) {
   constexpr auto rounding = static_cast<double>(range) * epsilon;
   for (int n = 0; n < repetitions; ++n) {
     const Four x = random_four(random);
-    const int first = 4 * static_cast<int>((range / 4 - 0.01) * random.uniform());
+    constexpr int groups = range / 4;
+    const int first = 4 * static_cast<int>((groups - 0.01) * random.uniform());
     const Lanes tagged_lanes = tagged<range>(loaded(x), first);
     const double largest = greatest(tagged_lanes).first(), smallest = least(tagged_lanes).first();
     const auto [low, high] = std::minmax_element(x.begin(), x.end());
