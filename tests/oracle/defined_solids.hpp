@@ -39,7 +39,7 @@ struct RealBody {
 /// The vertices of the engine's solid, whose doubles and low parts are exact numbers.
 RealBody body_of(const ConvexSolid& solid);
 /// The given vertices, moved and scaled so that the centroid is 0 and the volume 1.
-RealBody normalised(const DefinedSolid& solid);
+RealBody normalised(const DefinedSolid& defined);
 
 /// V and S_A of a pair in the lab frame, to 100 digits: A is cut by planes through three corners of each face of B.
 struct RealOverlap {
