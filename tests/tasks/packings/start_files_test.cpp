@@ -225,8 +225,9 @@ TEST(StartFiles, TypesArePairedWithParticlesOnce) {
   foreign.cell = 100 * Eigen::Matrix3d::Identity();
   for (int i = 0; i < 20000; ++i) {
     foreign.types.push_back({fmt::format("T{}", i), i % 2 ? cube : std::vector<Vector3d>{}, {}});
+    const int layer = i / 729;
     foreign.bodies.push_back(
-        {2 * (i / 2) + 1, 1, Vector3d(i % 27, i / 27 % 27, i / 729) * 3, Eigen::Quaterniond::Identity()});
+        {2 * (i / 2) + 1, 1, Vector3d(i % 27, i / 27 % 27, layer) * 3, Eigen::Quaterniond::Identity()});
   }
   EXPECT_EQ(packing_of(foreign, SolidKind::cube).size(), 20000);
 }
