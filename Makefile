@@ -270,7 +270,7 @@ equilibria:
 	$(CONFIGURE) -DISOJAM_TESTS=ON
 	cmake --build $(BUILD) -j $(JOBS) --target isojam_equilibria
 	$(BUILD)/isojam_equilibria states 100 4
-	$(BUILD)/isojam_equilibria law 100 400 1000 4000
+	$(BUILD)/isojam_equilibria law 100 400 1000 4000 10000:2
 
 # The whole suite under the address and undefined-behaviour sanitizers, assertions on, in a directory of its own.
 test-asan:
