@@ -141,7 +141,7 @@ CLAIMS = {
     "The shifts of tetrahedra are not significant": lambda data: not significant_shifts(data, SOLIDS[0]),
     "No increase of φ_J by more than 0.005 is significant.": lambda data: max(
         mean for s in SOLIDS for mean in significant_shifts(data, s)) < 0.005,
-    "Cut-offs in intervals without angles exist in few packings, and give a smaller C": lambda data: all(
+    "Cut-offs in intervals without angles exist only in some packings, and give a smaller C": lambda data: all(
         found["n"] < len(data.kept(s, n)) and found["mean"] < data.constraints(s, n, "trough")["mean"]
         for s in SOLIDS for n in SIZES if (found := data.constraints(s, n, "gap"))),
     "In icosahedra and dodecahedra, these are fewer than the particles of a mean cluster": lambda data: all(
