@@ -86,7 +86,7 @@ run: build
 # The studies of examples/paper, examples/rigidity and examples/percolation; then the page, its tables and its figures
 # from their results. An interrupted call is resumed. A replicate that failed (exit 1) is counted on the page.
 PAPER = n100 n400 n400-tetrahedra n4000 unstable emergence protocol
-RIGIDITY = n50 n64 n200 solids
+RIGIDITY = n50 n64 n200 n800 solids
 PERCOLATION = kept100 removed100 tetrahedra kept200 removed200 cycles range cubes kept400 tetrahedra400
 # Measures that an interrupted call left come first, because `run` would compute the whole replicate again.
 studies = @for study in $(1); do \
@@ -94,10 +94,10 @@ studies = @for study in $(1); do \
 	  $(BUILD)/isojam run examples/$(2)/$$study.json >/dev/null || [ $$? = 1 ] || exit 1; \
 	done
 # Measures that take long, only of the states nearest jamming: of all states, if a manifest has them.
-nearest = @$(BUILD)/isojam measure results/paper-$(1) --add $(2) >/dev/null || [ $$? = 1 ]
+nearest = @$(BUILD)/isojam measure results/$(1) --add $(2) >/dev/null || [ $$? = 1 ]
 define nearest_400
-	$(call nearest,400,backbone)
-	$(call nearest,400-tetrahedra,backbone$(comma)rigidity)
+	$(call nearest,paper-400,backbone)
+	$(call nearest,paper-400-tetrahedra,backbone$(comma)rigidity)
 endef
 comma := ,
 page = @$(PYTHON) -B examples/$(1)/figures.py results/$(1) $(2) && \
@@ -106,8 +106,8 @@ paper: build
 	$(call install,python3 python3-matplotlib python3-scipy)
 	$(call studies,$(PAPER),paper)
 	$(nearest_400)
-	$(call nearest,4000,rigidity)
-	$(call nearest,unstable,difference_modes)
+	$(call nearest,paper-4000,rigidity)
+	$(call nearest,paper-unstable,difference_modes)
 	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/paper/records.json $(addprefix paper-,$(PAPER:n%=%))
 	$(call page,paper,results/paper/records.json)
 
@@ -116,6 +116,7 @@ rigidity: build
 	$(call studies,n100 n400 n400-tetrahedra,paper)
 	$(call studies,$(RIGIDITY),rigidity)
 	$(nearest_400)
+	$(call nearest,rigidity-800,modes$(comma)moduli$(comma)rigidity)
 	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/rigidity/paper.json paper-100 paper-400 paper-400-tetrahedra
 	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/rigidity/records.json \
 	  $(addprefix rigidity-,$(RIGIDITY:n%=%))
