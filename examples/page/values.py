@@ -69,6 +69,12 @@ def against_isostatic(data, how, particles):
     return " ".join(text[place].format(listed(solids)) for place, solids in places.items() if solids) or "–"
 
 
+def farthest(data, sizes):
+    """Largest Δφ of the states nearest jamming, without tetrahedra with N ≥ 400."""
+    return max(x[-1] for solid in SOLIDS for n in sizes if (solid, n >= 400) != (SOLIDS[0], True)
+               for x in data.distances(solid, n))
+
+
 def minima(data, which, *sizes):
     """Numbers of states nearest jamming: minima with three zero modes by all particles, by the backbone, or all."""
     found = [data.minima(solid, int(n)) for solid in SOLIDS for n in sizes]

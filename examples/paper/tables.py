@@ -6,7 +6,7 @@ import statistics
 
 from comparison import (DICE, DICE_DENSITY, STABLE_FROM, drawn_size, figures_of, offset, region_two, uncertainty, within)
 from data import EMERGENCE, LARGE, NEGATIVE, SOLIDS, base_of
-from estimates import NORMAL, difference_of, estimate_of
+from estimates import NORMAL, difference_of, estimate_of, student
 from limits import limit
 from text import counted, interval, number, significant, signed, spread, table
 
@@ -54,6 +54,13 @@ def summary(data):
                   "C by fit, N = 400", f"12 − 4/N, N = {size}", "minima with three zero modes"], rows)
 
 
+def needed_packings(data, figure):
+    """Number of packings like ours for which the interval of a mean is that of the paper."""
+    ours = data.phi_j(figure["solid"], figure["particles"])
+    deviation = ours["half_width"] * ours["n"] ** 0.5 / student(ours["n"] - 1)
+    return (NORMAL * deviation / figure["error"]) ** 2
+
+
 def densities(data):
     rows = []
     for figure in figures_of("Table I"):
@@ -62,9 +69,10 @@ def densities(data):
         dice = DICE_DENSITY[solid]
         rows.append([f"{solid} {n}", counted(ours), spread(ours), said(figure),
                      f"{signed(off[0], 4)} ({signed(off[1], 1)})" if off else "–", within(data, figure, ours),
+                     significant(needed_packings(data, figure), 2) if ours and ours["n"] > 1 else "–",
                      f"{number(dice[0], 2)} ± {number(dice[1], 2)}"])
     return table(["solid, N", "φ_J", "one more packing", "paper", "paper − ours (deviate)", "overlaps our",
-                  "dice"], rows)
+                  "packings", "dice"], rows)
 
 
 def sizes(data):
@@ -292,21 +300,25 @@ def cost(data):
 TABLES = (
     ("Jamming density", """The deviate is the offset in standard deviations of a normal distribution with the same
      probability. It assumes that the paper's value is the φ_J of one packing like ours, with the paper's interval. The
-     column after it states which of our intervals overlaps that of the paper. The dice are rounded dice in a
-     box, which the paper quotes.""", densities),
+     column after it states which of our intervals overlaps that of the paper. *Packings* is the number of packings like
+     ours whose mean would have an interval as narrow as the paper's. The dice are rounded dice, whose densities the
+     paper quotes.""", densities),
     ("Finite-size effect of the jamming density", "The interval is that of Welch's t.", sizes),
     ("Shift of the jamming density by the compression protocol", """Paired differences of φ_J in units of 10⁻⁴ (N = 100,
      same initial configurations): the protocol of the row minus ours. Ours compares the energy after relaxation with the
      target, and uses a strain step of 0.02 and 500 evaluations (tetrahedra: 2000). A dash means fewer than three pairs.""", protocols),
-    ("C by three classifications", """The second error of C by trough is its change within the trough. That of C by fit is
-     half its range from half to twice the fitted cut-offs. C by gap exists only if both angles have a gap.""",
+    ("C by three classifications", """The second error of C by trough is half the difference between C at both edges
+     of the trough. That of C by fit is half its range from half to twice the fitted cut-offs. C by gap exists only
+     if both angles have a gap.""",
      constraints),
     ("Table II of the paper: critical angles", "Our values are computed from closed forms.", angles),
-    ("Table III of the paper: tetrahedra, N = 100, Δφ = 0.04", "The dice are those of Jaoshvili et al. (2010).", table_iii),
-    ("Table IV of the paper: clusters", """Clusters of face-face contacts, N = 400. We compare at the smallest Δφ at which the
-     paper's packings were stable: 0.04 for tetrahedra, 0.02 for octahedra, 0.01 for the others. The extent l_max of a
-     cluster is measured between centres or between vertices. The paper does not state which. "Largest of all states" is the
-     largest extent over all packings and all Δφ.""", table_iv),
+    ("Table III of the paper: tetrahedra, N = 100, Δφ = 0.04", """The paper's value is in our confidence interval if
+     it is between our mean ± the sum of both errors, within half a unit of its last digit. The dice and their
+     errors are those of Jaoshvili et al., Phys. Rev. Lett. 104, 185501 (2010).""", table_iii),
+    ("Table IV of the paper: clusters", """Clusters of face-face contacts, N = 400. We compare at the smallest Δφ at
+     which the paper reports stable packings (caption of its Figure 3): 0.04 for tetrahedra, 0.02 for octahedra,
+     0.01 for the others. The extent l_max of a cluster is measured between centres or between vertices. The paper
+     does not state which. "Largest of all states" is the largest extent over all packings and all Δφ.""", table_iv),
     ("High-frequency modes", """Squared amplitude of the fifty highest modes on particles that have a face-face contact,
      in the states nearest jamming. The number of particles that take part is N times the mean participation ratio. If it
      is below S, a mode can be on one cluster of face-face contacts.""", high_modes),
@@ -317,9 +329,9 @@ TABLES = (
      matrices from central differences of forces with the step h (V_p^(1/3)). The paper's stability analysis used central
      differences. With N = 400 and Δφ = 0.01, it found 5.3 % of
      unstable modes in tetrahedra. In octahedra it found less than 1.2 %.""", unstable),
-    ("Is region 2 of c(θ_ff) uniform?", """The paper states that θ_ff is uniform between 1° and the smallest critical
-     angle. Both halves of this range would then have the same density. The interval of the ratio is that of Poisson
-     noise.""", uniformity),
+    ("Is region 2 of c(θ_ff) uniform?", """The paper states that θ_ff is uniform between 1° and the smallest
+     critical angle. Both halves of this range would then have the same density. Angles are those of the states
+     nearest jamming. The interval of the ratio is that of Poisson noise.""", uniformity),
     ("Order in which regions emerge", """The paper states that region 1 of c(θ_ff), the angles below 1°, emerges only after
      c(θ_ef) is hyper-random, that is, larger than for random contacts at small angles. Packings were compressed to E/N =
      5·10⁻⁴ (`emergence.json`). Region 1 exists if the first ratio is above 1. c(θ_ef) is hyper-random if the second ratio

@@ -1,5 +1,6 @@
 """Tables of the page and of tables.md."""
 
+import collections
 import math
 
 from counting import EDGES, WINDOWS, drawn_size, infinite, limit_at_jamming
@@ -155,19 +156,20 @@ def modes(data):
 
 
 def other_solids(data):
-    """Solids of the study of many solids, in its order, with the number of their replicates."""
-    replicates = data.studies.get(SOLIDS_64, {"replicates": ()})["replicates"]
-    return {solid: sum(r["solid"] == solid for r in replicates) for solid in dict.fromkeys(r["solid"] for r in replicates)}
+    """Solids of the study of many solids, in its order."""
+    return list(dict.fromkeys(r["solid"] for r in data.studies.get(SOLIDS_64, {"replicates": ()})["replicates"]))
 
 
 def solids(data):
-    rows = []
-    for solid, every in other_solids(data).items():
+    rows, every = [], data.studies.get(SOLIDS_64, {"replicates": ()})["replicates"]
+    crystals = collections.Counter(r["solid"] for r in every if "crystalline" in r["flags"])
+    failed = collections.Counter(r["solid"] for r in every if r["status"] != "done")
+    for solid in other_solids(data):
         kept = data.kept_of(SOLIDS_64, solid)
         cells = [data.nearest_of(SOLIDS_64, solid, name) for name in (
             "Z", "C", "C_s", "missing", "redundant", "stiff_tilts_ff", "stiff_tilts_ef", "stiff_tilts_l", "prestress_10_each")]
-        rows.append([solid, f"{len(kept)} of {every}", interval(estimate_of([r["phi_j"] for r in kept])), *map(interval, cells)])
-    return table(["solid, N = 64", "packings", "φ_J", "Z", "C by fit", "C_s", "m", "S/N", "stiff tilts, face-face",
+        rows.append([solid, *map(str, (len(kept), crystals[solid], failed[solid])), interval(estimate_of([r["phi_j"] for r in kept])), *map(interval, cells)])
+    return table(["solid, N = 64", "packings", "crystals", "failed", "φ_J", "Z", "C by fit", "C_s", "m", "S/N", "stiff tilts, face-face",
                   "stiff tilts, edge-face", "stiff tilts, others", f"{MODES} normals and tilts"], rows)
 
 
@@ -208,7 +210,7 @@ TABLES = (
     ("Normals, tilts and prestress", """Modes per particle in which the normals, or the normals and stiff tilts together,
      contribute less than half of the stiffness, and stiff tilts per contact. A tilt with the stiffness κ is stiff if s =
      κR/f > 10, with the radius of gyration R and the force f of the contact.""", modes),
-    ("Other solids", f"""Sixteen solids, N = 64, Δφ = {TILTS_AT}. The first number of packings is that of the packings in
-     the means, without crystals and failures. C_s counts the normal and the stiff tilts of each contact.""", solids),
+    ("Other solids", f"""Sixteen solids, N = 64, Δφ = {TILTS_AT}. *Packings* is the number of packings in the means,
+     without crystals and failures. C_s counts the normal and the stiff tilts of each contact.""", solids),
     ("Cost", "CPU times on one core of an Intel Xeon that also ran other work.", cost),
 )

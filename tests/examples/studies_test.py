@@ -58,7 +58,7 @@ class Pages(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_are_refused_if_changed(self):
-        changes = {"paper": (("| octahedron | 0.6", "| octahedron | 0.7"), ("C lies near 12", "C lies far from 12")),
+        changes = {"paper": (("| octahedron | 0.6", "| octahedron | 0.7"), ("Contacts are hypostatic", "Contacts are isostatic")),
                    "rigidity": (("12 − 6/N", "13 − 6/N"),),
                    "percolation": (("| octahedron | 0 | 16 | 0.6", "| octahedron | 0 | 16 | 0.7"),
                                    ("None of these packings", "One of these packings"))}
