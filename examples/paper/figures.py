@@ -106,8 +106,7 @@ def vibrations(data, out):
             label = f"{solid}, Δφ = {spectra[0]['delta_phi']:.2g}"
             left.semilogy(range(1, len(lowest) + 1), lowest, color=COLOURS[solid], marker=MARKERS[solid], markevery=7,
                           label=label)
-            left.semilogy(range(len(lowest) + 6, len(lowest) + 6 + len(highest)), highest, color=COLOURS[solid],
-                          marker=MARKERS[solid], markevery=7)
+            left.semilogy(range(56, 56 + len(highest)), highest, color=COLOURS[solid], marker=MARKERS[solid], markevery=7)
         for column in ("omega_l", "omega_h"):
             curve(right, mean_path(data, solid, 400, column, logarithmic=True), solid, linestyle="-")
     guide = [4e-4, 0.1]
