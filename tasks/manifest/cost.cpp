@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
 #include "engine/arithmetic/elementary.hpp"
 
@@ -24,8 +23,6 @@ constexpr std::array<JamLaw, all_solids.size()> jam_laws{{{3.3, 1.5, 0.54},     
 constexpr double law_distance = 0.01, law_fraction = 0.35, law_step = 0.02, law_evaluations = 500, law_particles = 100;
 /// Powers of N, and of the number of evaluations for a state of the compression.
 constexpr double compression_size_power = 1.2, decompression_size_power = 1.75, evaluations_power = 0.6;
-/// Below law_distance, `power` increases by this for each doubling of N from N = 100.
-constexpr double power_of_doubling = 0.07;
 /// Target energy for which the times hold, its power in the time of a compression, and the smallest such factor.
 constexpr double law_energy = 3.2e-5, energy_power = 0.25, smallest_energy_factor = 0.5;
 /// Factors of the compression if the target applies before relaxation, and of both stages if the cell shape relaxes.
@@ -48,7 +45,7 @@ double steps_to(double distance, double fraction) {
 }
 
 double jam_seconds(const ReplicateSpec& spec) {
-  const auto& [compression, decompression, power_at_100] = law_of(spec.solid);
+  const auto& [compression, decompression, power] = law_of(spec.solid);
   const auto& first = spec.options.compression;
   const auto& second = spec.options.decompression;
   const double evaluations = std::min<double>(first.evaluations, first.relaxation == Consolidation::hasty ? 50 : 1e9);
@@ -59,9 +56,6 @@ double jam_seconds(const ReplicateSpec& spec) {
   if (first.target_before_relaxation) up *= gentle;
   if (spec.options.cohesion.acts()) up *= cohesive;
   if (spec.start && spec.start->stage == JamStage::expansion) up = 0;
-  const bool is_near = second.final_distance < law_distance;
-  const double power =
-      power_at_100 + (is_near ? power_of_doubling * nearest::log(std::max(1.0, size)) / std::numbers::ln2 : 0);
   const double down = decompression * nearest::pow(law_distance / second.final_distance, power) *
                       nearest::log(1 - law_fraction) / nearest::log(1 - std::min(second.step_fraction, 0.9)) *
                       nearest::pow(size, decompression_size_power);
