@@ -135,7 +135,7 @@ CLAIMS = {
     "Contacts are hypostatic": lambda data: all(
         (e := contacts_at_jamming(data, s, 400)) and e["mean"] + e["half_width"] < 10 for s in SOLIDS),
     "C lies near 12": lambda data: all(abs(c - 12) < 0.6 for c in constraints_of(data, "trough").values()),
-    "By the paper's fit, whose cut-offs and errors are larger, the other three agree with 12.": lambda data: all(
+    "By the paper's fit, with larger cut-offs and errors, the other three agree with 12.": lambda data: all(
         abs(off_twelve(data, s, 400, "fit")) < 1 and error_of(data, s, "fit") > error_of(data, s, "trough")
         and data.nearest(s, 400, "cut_ef")["mean"] > data.trough(s, 400)["edge_face"]["cutoff"] for s in SOLIDS[1:]),
     "The limit of tetrahedra at jamming may be 12.": lambda data: abs((c := limit_by_trough(data, SOLIDS[0]))["mean"] - 12) < c[
