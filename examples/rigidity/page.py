@@ -137,15 +137,15 @@ def identity_holds(data):
 
 # Sentences of README.md that follow from the data only as long as these functions are true.
 CLAIMS = {
-    "are rigid because edges and faces resist tilting.": lambda data: min(missing_by_normals(data)) > 1 and all(
+    "resist almost all motions by contact normals, which resist compression, and by edges and faces, which resist tilting.": lambda data: min(missing_by_normals(data)) > 1 and all(
         data.nearest(s, 100, "missing_trough")["mean"] < 0.2 for s in SOLIDS),
-    "There, normals alone do so in most modes only in tetrahedra.": lambda data: [
+    "Normals alone do so in most modes only in tetrahedra.": lambda data: [
         data.at(s, 100, "held_by_second_each", TILTS_AT)["mean"] < 3 for s in SOLIDS] == [True, False, False, False],
     "For any classification, C = 12 − 6/N − 2m + 2S/N": identity_holds,
-    "Linear extrapolations to Δφ = 0 agree within errors of": lambda data: all(
+    "Linear extrapolation to Δφ = 0 gives these C within errors of": lambda data: all(
         abs(limit["mean"] - data.constraints(s, drawn_size(data), "trough")["mean"]) < limit["half_width"]
         for s, limit in zip(SOLIDS, limits_by_trough(data))),
-    "Constraints are redundant in tetrahedra, and missing in the other solids": lambda data: all(
+    "Tetrahedra have redundant constraints; the others lack m =": lambda data: all(
         (m := data.nearest(s, 100, "missing_trough"))["mean"] > m["half_width"] for s in SOLIDS[1:])
         and data.nearest(SOLIDS[0], 100, "redundant_trough")["mean"] > 0.05,
     "Fewer are missing in octahedra": lambda data: all(data.nearest(SOLIDS[1], n, "missing_trough")["mean"] < min(

@@ -193,7 +193,7 @@ def paper_numbers(rows, pooled, size):
             *((f"C by trough, {s}", constraints_by_trough(rows, pooled, s, size), 0.12) for s in SOLIDS),
             ("N", 400, 0),
             *((f"C by trough, {s}, N = 400", constraints_by_trough(rows, pooled, s, 400), 0.2) for s in SOLIDS[1:]),
-            ("12", 12, 0), ("12", 12, 0), ("12", 12, 0),
+            ("12", 12, 0), ("12", 12, 0), ("12", 12, 0), ("N", 400, 0),
             ("largest offset of φ_J", max(abs(PAPER[k] - numpy.mean(v)) for k, v in phi.items()), 0.00051),
             ("shift, least", shifts(rows), 0.00051)]
 
