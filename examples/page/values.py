@@ -1,9 +1,8 @@
 """Numbers in sentences that both pages use: functions of the data and of words of a mark, which return text."""
 
 from data import PLURALS, SOLIDS
-from estimates import single_half_width
 from marks import PageError
-from text import interval, number, places_of, signed
+from text import interval, number, signed
 
 
 def estimate(data, column, solid, particles, distance=None):
@@ -11,25 +10,10 @@ def estimate(data, column, solid, particles, distance=None):
     return interval(data.at(solid, int(particles), column, distance and float(distance)))
 
 
-def mean(data, column, solid, particles, distance=None):
-    found = data.at(solid, int(particles), column, distance and float(distance))
-    return number(found["mean"], places_of(found["half_width"] or 0)) if found else "–"
-
-
-def jamming_density(data, solid, particles):
-    return interval(data.phi_j(solid, int(particles)))
-
-
 def constraints(data, how, solid, particles):
     """C without its errors, with two decimals."""
     found = data.constraints(solid, int(particles), how)
     return number(found["mean"], 2) if found else "–"
-
-
-def spread_range(data, particles):
-    """Smallest and largest half width of the prediction interval of φ_J over the solids."""
-    widths = [single_half_width(data.phi_j(solid, int(particles))) for solid in SOLIDS]
-    return f"{number(min(widths), 3)} to {number(max(widths), 3)}"
 
 
 def column_range(data, column, particles, places="1"):
@@ -42,12 +26,6 @@ def protocol_end(data, end):
     """The smallest or largest mean shift of φ_J by another compression protocol, over all solids."""
     ranges = [data.protocol_range(solid) for solid in SOLIDS]
     return signed(min(low for low, _ in ranges) if end == "least" else max(high for _, high in ranges), 3)
-
-
-def largest_systematic(data, particles):
-    """The largest error of C by the width of the trough over the solids."""
-    found = [e["systematic"] for solid in SOLIDS if (e := data.constraints(solid, int(particles), "trough"))]
-    return number(max(found), 2) if found else "–"
 
 
 def listed(solids):
@@ -81,8 +59,7 @@ def minima(data, which, *sizes):
     return str(sum(one[("whole", "backbone", "all").index(which)] for one in found))
 
 
-VALUES = {"at": estimate, "mean": mean, "phi_j": jamming_density, "C": constraints, "spread_range": spread_range,
-          "range": column_range, "protocol": protocol_end, "width": largest_systematic,
+VALUES = {"at": estimate, "C": constraints, "range": column_range, "protocol": protocol_end,
           "against_isostatic": against_isostatic, "minima": minima}
 
 

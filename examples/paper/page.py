@@ -105,8 +105,7 @@ value_of = values.value_of({
     "minima_share": share_of_minima,
     "farthest": lambda data: significant(values.farthest(data, SIZES), 2),
     "size": lambda data: str(drawn_size(data)), "drawn": drawn,
-    "isostatic": lambda data: values.against_isostatic(data, "trough", drawn_size(data)),
-    "trough_width": lambda data: values.largest_systematic(data, drawn_size(data))})
+    "isostatic": lambda data: values.against_isostatic(data, "trough", drawn_size(data))})
 
 
 def constraints_of(data, how):

@@ -315,9 +315,9 @@ TABLES = (
     ("Table III of the paper: tetrahedra, N = 100, Δφ = 0.04", """The paper's value is in our confidence interval if
      it is between our mean ± the sum of both errors, within half a unit of its last digit. The dice and their
      errors are those of Jaoshvili et al., Phys. Rev. Lett. 104, 185501 (2010).""", table_iii),
-    ("Table IV of the paper: clusters", """Clusters of face-face contacts, N = 400. We compare at the smallest Δφ at
-     which the paper reports stable packings (caption of its Figure 3): 0.04 for tetrahedra, 0.02 for octahedra,
-     0.01 for the others. The extent l_max of a cluster is measured between centres or between vertices. The paper
+    ("Table IV of the paper: clusters", """Clusters of face-face contacts, N = 400. We compare at the smallest
+     Δφ of stable packings that we infer from the caption of the paper's Figure 3: 0.04 for tetrahedra, 0.02 for
+     octahedra, 0.01 for the others. The extent l_max of a cluster is measured between centres or between vertices. The paper
      does not state which. "Largest of all states" is the largest extent over all packings and all Δφ.""", table_iv),
     ("High-frequency modes", """Squared amplitude of the fifty highest modes on particles that have a face-face contact,
      in the states nearest jamming. The number of particles that take part is N times the mean participation ratio. If it
