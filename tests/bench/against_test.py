@@ -1,12 +1,4 @@
-"""Tests against.py with two programs that replace isojam_bench and print given results. usage: against_test.py
-
-- The printed ratio is the median of the ratios of the rounds, BEFORE divided by NOW. Its range and both median times
-  are printed too.
-- The order of the two programs alternates from round to round.
-- A benchmark that only one program has is left out, and so are counters other than times. If no benchmark is left, the
-  output is one line with the filter.
-- If a program fails, against.py fails too.
-"""
+"""Tests against.py with two programs that replace isojam_bench and print given results. usage: against_test.py"""
 
 import json
 import pathlib

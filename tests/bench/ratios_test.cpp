@@ -1,9 +1,3 @@
-// Properties tested here:
-// - The median of random lists is the middle of the sorted list, or the mean of the two in the middle.
-// - A claim (a ratio of two measured quantities with a bound) holds on one side of its bound and fails on the other
-//   side. A bound of 0 requires nothing. A claim without measurements of both sides is ignored.
-// - A claim refers to two different quantities of one family, named `family/method/case`.
-
 #include "tests/bench/ratios.hpp"
 
 #include <gtest/gtest.h>

@@ -1,16 +1,4 @@
-"""Tests the page of a chart in Chromium, opened from disk. usage: chart_browser_test.py ISOJAM
-
-- The page has no console error and requests nothing from the network.
-- Each family of errors and times has a figure with one panel for each task and two logarithmic axes. Each failure is
-  drawn once, and its reason is written at the upper edge without covering other marks. Pareto fronts are drawn.
-- Each setting of the protocol has a row with a label, in a wide and in a narrow window. No two labels or points of a
-  panel touch, each point is in the row of its label, and a failure is one cross.
-- Costs as functions of N have one line for each method, with the fitted power next to it, as in the data.
-- The conclusion has the text of the data.
-- Each row of the atlas has a cell with a sign and a word, not only a colour. Its tooltip shows the value and the
-  reason. Each failure and refusal is also written as text, which is visible in print.
-- On a narrow screen, no element is wider than the window.
-"""
+"""Tests the page of a chart in Chromium, opened from disk. usage: chart_browser_test.py ISOJAM"""
 
 import collections
 import json

@@ -1,29 +1,4 @@
-"""Tests pages of reports in Chromium, opened from disk. usage: report_browser_test.py ISOJAM
-
-- No page has a console error, requests anything from the network, or opens an alert.
-- Every panel of every chart has marks, and no mark has a coordinate NaN. Tooltips appear.
-- A chart can be saved as SVG, as PNG, as a specification with data, and as data.
-- The mean of one replicate is drawn as an open symbol and is not joined to other points. Panels and bands have complete
-  labels.
-- The table can be sorted by every column in both directions, by mouse and by keyboard. A copy of the table is the
-  output of `isojam aggregate`.
-- The 3D view draws a packing. It can be rotated by mouse and keyboard, zoomed and coloured. It can show only the
-  largest cluster, and animate a mode. For 400 particles it leaves out outlines during a rotation. Without WebGL a
-  sentence replaces it.
-- If the reader prefers reduced motion, nothing moves.
-- The reader can choose one chart for all solids, which then differ in colour and symbol. Symbols of quantities are set
-  as mathematics.
-- With 400 replicates, no replicate hides another one. Boxes and swarms of points are drawn. Crystalline replicates
-  extend an axis only if the reader chooses this. Flagged replicates are listed by flag. The page states which packings
-  it contains.
-- Mixtures have contact numbers between their kinds, and the view colours particles by kind. Curves, kinds and strokes of
-  a shear differ in the legends. The table states the goal of the stopping rule and each number of replicates.
-- Contact forces are drawn. The view can be saved as PNG.
-- Pages are complete for failed replicates, for one replicate, without modes, with swept parameters, and for cubes. If
-  parts are missing, they name the measure that would give these parts.
-- Names and texts that are markup are shown as text.
-- No element is wider than its container, on screens of 1400 and of 390 pixels, and no page scrolls horizontally.
-"""
+"""Tests pages of reports in Chromium, opened from disk. usage: report_browser_test.py ISOJAM"""
 
 import sys
 import unittest

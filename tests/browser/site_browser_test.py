@@ -1,10 +1,5 @@
 """Tests the documentation site that MkDocs builds, in Chromium and opened from disk. usage: site_browser_test.py SOURCE
 
-- No page has a console error. Each file that a page loads or links to exists.
-- No page is wider than the window, at widths of 1400 and of 390 pixels.
-- At both widths, the menu leads to another page. At 390 pixels, it opens and closes.
-- The search finds sections and leads to them.
-
 Doxygen does not run; empty files replace its pages.
 """
 

@@ -1,13 +1,4 @@
-"""Tests the commands of isojam in the pages. usage: commands_test.py SOURCE PROGRAM
-
-- Every command line in a block or in the text of a page has a command and options of this program. It runs without an
-  error in a small results directory, which replaces the one that the page names; `run` gets the option --dry-run. Only
-  the options of `chart` are checked, because it takes minutes. Command lines of docs/tutorial.md are left to
-  tutorial_test.py.
-- Every manifest in such a command line is valid.
-- docs/commands.md has every command, and every option of each command.
-- A command line with a wrong option, command or manifest is found.
-"""
+"""Tests the commands of isojam in the pages. usage: commands_test.py SOURCE PROGRAM"""
 
 import pathlib
 import re

@@ -1,13 +1,4 @@
-"""Tests the first day of a user as one story. usage: day_test.py PROGRAM MODULE
-
-- A new study is validated and run. A sweep that grows keeps the finished replicates.
-- A measure that was forgotten is added without the states of the decompression, and the tables say so.
-- Cubes reach the target energy with the defaults.
-- A stopping rule ends a study, and the tables state how far its goal was reached. If more replicates are allowed, the
-  records do not change. In a terminal, the progress bar of each round never counts beyond its end.
-- In a terminal of 80 columns no line of a table is wider. A pipe gets the whole table.
-- The report, and the means of the Python module, are those of the program.
-"""
+"""Tests the first day of a user as one story. usage: day_test.py PROGRAM MODULE"""
 
 import json
 import os

@@ -1,13 +1,4 @@
-"""Tests the pages about manifests and fields. usage: fields_test.py SOURCE FACTS
-
-- The tables of docs/manifest.md and docs/fields.md are those that reference.py makes from the schemas and the
-  quantities of the program. `reference.py --write` writes them again.
-- docs/fields.md has a meaning for every field of records, packings, paths and tables, and a unit for every quantity.
-  docs/manifest.md has the default of every key of a manifest. This test does not use reference.py.
-- No two quantities have the same meaning.
-- Every flag and every measure has a row.
-- A missing field, a field without a meaning, and a wrong default are found.
-"""
+"""Tests the pages about manifests and fields. usage: fields_test.py SOURCE FACTS"""
 
 import json
 import pathlib

@@ -1,11 +1,4 @@
-"""Tests the links in the pages. usage: links_test.py SOURCE
-
-- Every relative link and every picture refers to a file of the source tree. Every anchor belongs to a heading, both on
-  GitHub and in the site.
-- Three errors are found: a missing file, a link that leaves the source tree, and an anchor that differs between GitHub
-  and the site. Code is not a link.
-- The index links to every page in docs/, and the page of the examples links to every example that has a page.
-"""
+"""Tests the links in the pages. usage: links_test.py SOURCE"""
 
 import pathlib
 import sys

@@ -1,15 +1,4 @@
-"""Tests files that describe the project. usage: project_test.py SOURCE
-
-- README.md has at most 120 lines and a picture. It contains both commands, the licence, and how to cite. Its lines of
-  C++ are those of examples/12-library, and the table entry that it explains is in its table.
-- CITATION.cff is YAML with the keys that version 1.2.0 of its format requires. It has the version of CMakeLists.txt,
-  the licence of LICENSE, and the address of the paper in README.md.
-- CHANGELOG.md has the headings of its format.
-- The files in docs/packaging have the version of CMakeLists.txt and are valid YAML, TOML and Python.
-- Every target of make in a page is a target of the Makefile, and the page on developing has all targets for users.
-- docs/install.md has the packages, the minimum versions and the names that CMake prints.
-- A citation without a required key, or of another version, is rejected.
-"""
+"""Tests files that describe the project. usage: project_test.py SOURCE"""
 
 import ast
 import copy

@@ -1,14 +1,4 @@
-"""Tests the site that `make docs` makes. usage: site_test.py SOURCE
-
-- Every page, and every file to which a page links, is in the site. Links are adapted, and code is not changed. A link
-  without a target ends the conversion with an error.
-- No comment remains that could end a paragraph, `\|` in the code of a table becomes `|`, and a value stays on one line
-  with its first error.
-- The menu in docs/site/mkdocs.yml has exactly the pages of the site.
-- The text of a header for Doxygen has the same number of lines. Each declaration in a line has the comment of this
-  line. Overloads have the comment of the first one. A declaration without a comment still has none.
-- The public headers, which are installed and have a reference, include only public headers of the engine.
-"""
+"""Tests the site that `make docs` makes. usage: site_test.py SOURCE"""
 
 import pathlib
 import re

@@ -1,9 +1,5 @@
 """Tests the tutorial. usage: tutorial_test.py SOURCE PROGRAM MODULE
 
-- The commands of docs/tutorial.md run in their order, in an empty folder. Each prints the lines that the page shows.
-- The page has every step of a first study. All its commands except those of `make` are run.
-- These errors are found: a line that a command does not print, and a file or a command that is missing in the page.
-
 A block that begins with ```console has commands after "$ ", and the lines that they print. In these lines, "…" stands
 for any text, and also for omitted lines. Any number of blanks counts as one blank, and all durations and sizes count as
 equal. "^C" interrupts the command when it has written a checkpoint. A block that begins with ```json or ```python is

@@ -2,12 +2,6 @@
 
 A program replaces HyperQueue. It starts the tasks of an array as its options require, each in its own environment.
 RESULTS are the results of a single run of the manifest of the example.
-
-- There is one task for each replicate. Two tasks run at the same time, the last task starts first, and each has a shard
-  and its own HQ_TASK_ID. If one task is killed with SIGKILL, the table and the status state that one replicate is
-  missing. If the array is submitted again, only this replicate runs.
-- Records, packings and tables are then equal to those of a run without shards, and so are the result digests.
-- The script without arguments prints its usage. A task without an ID ends with an error.
 """
 
 import json

@@ -1,23 +1,4 @@
-"""Tests the shared modules of the pages. usage: page_test.py examples/page
-
-- Student's t agrees with tables. The interval of normal samples contains their true mean in 95 of 100 cases. The
-  systematic error of choices is half their range.
-- A normal deviate has the same probability as its t. Sums of squares of deviates from few values have a χ²
-  distribution. Variances are added as by Welch and Satterthwaite, and the interval of a difference contains the true
-  value.
-- Numbers show two digits of their error, with a leading zero, and a minus sign instead of a hyphen.
-- φ_J of an exact power law is found with every window, and states outside the window have no effect. Too few states
-  give no result.
-- The local exponent of a power law is its exponent in every bin. No slope is computed across a missing value. A
-  replicate counts once in a bin.
-- A limit is found with the form of the data. Its interval contains the true value in at least 90 of 100 noisy cases.
-  Other forms increase the systematic error. A free exponent at the end of its grid gives no result.
-- The trough between two artificial populations is found, and C of this mixture is known.
-- Means leave out the replicates that the program excludes, and no others.
-- A sentence that the data do not support gives a message.
-- A page in which a block is missing or occurs twice is rejected. Values in sentences are updated, and nothing else
-  changes.
-"""
+"""Tests the shared modules of the pages. usage: page_test.py examples/page"""
 
 import json
 import math

@@ -1,11 +1,4 @@
-"""Tests the estimates of examples/percolation. usage: percolation_test.py examples/percolation
-
-- The branching ratio of random contacts is the mean over many random draws, and that of a chain is known.
-- The threshold of outcomes from a known logistic curve is found, and its interval contains the true value in at least
-  85 of 100 samples. Data without outcomes on both sides have no threshold.
-- The crossing of two known curves is found. Curves of equal steepness have none.
-- Groups with the same S(Z_ff) have no significant deviation from the common curve. A group with a larger S has one.
-"""
+"""Tests the estimates of examples/percolation. usage: percolation_test.py examples/percolation"""
 
 import importlib.util
 import math

@@ -1,15 +1,4 @@
-"""Tests the pages of examples/paper, examples/rigidity and examples/percolation. usage: studies_test.py examples ISOJAM
-
-- The committed pages and their tables agree with the committed data, and so does the table in README.md. A page with a
-  changed number is rejected, and so is a page without one of its sentences about the data.
-- A page has at most 150 lines and an abstract of at most 150 words. Each figure exists as SVG and PDF, and is shown.
-- Each number of an abstract is recomputed by abstracts.py. A changed number is found.
-- Pages and figures that are made in another folder have no broken link. A sentence that other data do not support gives a
-  message.
-- Gathering the results of a small run gives the values of the program's records and tables. C by trough from the
-  exported contacts agrees with it.
-- Two replicates of the studies, run again, have the φ_J of the committed data, within the effect of a rearrangement.
-"""
+"""Tests the pages of examples/paper, examples/rigidity and examples/percolation. usage: studies_test.py examples ISOJAM"""
 
 import json
 import re

@@ -1,14 +1,7 @@
 """Tests exported packings in cells that are not cubes, with the same readers as the other tests.
 
 usage: free_cell_test.py RESULTS EXPORTED, where EXPORTED contains NAME.gsd, NAME.xyz and NAME.vtp
-
-- The cell of a record is not a cube, and its volume is N/φ.
-- GSD: the box has tilts, and it is the rotated lattice of the packing. Positions are in the box, and their distances
-  are those of the packing. Orientations are rotated with the box. log/isojam/cell has the lattice vectors of the
-  packing.
-- XYZ: Lattice has exactly the lattice vectors. Positions are in the cell and have the distances of the packing.
-- VTP: the field cell has exactly the lattice vectors. A separating-axis test with the images in this lattice finds Z
-  contacts for each particle."""
+"""
 
 import itertools
 import json

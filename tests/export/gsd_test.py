@@ -1,12 +1,4 @@
-"""Tests GSD files with both readers of python3-gsd, the one in C and the one in Python.
-
-- The file is valid "hoomd" 1.4, and both readers find the same chunks.
-- The number and order of frames, N and the box are those of the packings. Steps count from 0.
-- Centres are in the box, whose centre is the origin. Their distances are those of the packings, and the images undo the
-  wrapping.
-- The shape of the type has unit volume. Rotated by the quaternions, it has the vertices of the packing.
-- The mass is 1, and the moments of inertia are those of the shape.
-- Z has the mean of the record, and clusters are those of the record. phi, side and delta_phi are exact."""
+"""Tests GSD files with both readers of python3-gsd, the one in C and the one in Python."""
 
 import gsd.fl
 import gsd.hoomd

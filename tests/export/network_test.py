@@ -1,14 +1,4 @@
-"""Tests exported contacts in every state of a decompression.
-
-- CSV and JSON lines have the same values, bit by bit. The header is the documented one.
-- The number of rows agrees with Z in the record, and the number of rows of each class with Z_ff, Z_ef and Z_l. If
-  classes are undecided in the record, rows have no class.
-- Forces and torques on every particle are balanced within the residual in the record.
-- The GSD file is valid. python3-gsd reads the same pairs as bonds, with the same forces.
-- Lines in the VTP file start at the centre of a, go through the point of application, and end at the centre of the
-  touching image of b. They have the same data.
-- In a cell that is not a cube, forces in the GSD file are rotated with the box, and the image of b is where the row
-  states."""
+"""Tests exported contacts in every state of a decompression."""
 
 import csv
 import json

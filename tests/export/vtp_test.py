@@ -1,13 +1,4 @@
-"""Tests VTP and PVD files with VTK as their reader.
-
-- Every particle is a separate closed surface of unit volume, oriented outwards. All of them together have the volume N.
-- Centres are in the cell and have the distances of the packing. Each particle is the solid of the OBJ file, rotated by
-  the quaternion of the packing.
-- side, phi and delta_phi are exact. Particles are numbered in order.
-- A separating-axis test of the polygons in the file finds Z contacts for each particle. Z has the mean of the record.
-- Clusters are those of the record. Each face with the mark face-face has a parallel face of another particle against
-  it, with the same mark.
-- A collection lists all existing files, in the order of decompression, with delta_phi as their time."""
+"""Tests VTP and PVD files with VTK as their reader."""
 
 import itertools
 import re

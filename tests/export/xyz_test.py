@@ -1,9 +1,4 @@
-"""Tests extended XYZ and OBJ files with short readers that follow the formats.
-
-- Frames are in order and have N lines each. Columns are those in Properties, and Lattice is the cell.
-- Positions are in the cell and have the distances of the packing. Quaternions (x, y, z, w) are those of the packing.
-- Z has the mean of the record, and clusters are those of the record. phi and delta_phi are exact.
-- The OBJ file is a closed solid of unit volume with its centroid at the origin. Faces are oriented outwards."""
+"""Tests extended XYZ and OBJ files with short readers that follow the formats."""
 
 import re
 

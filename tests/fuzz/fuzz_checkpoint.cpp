@@ -1,6 +1,5 @@
-// Property tested with arbitrary documents: a document is either rejected with an InputError, or it is a checkpoint
-// that can be written again. Each document gets the build and the replicate of this program, so that it passes the
-// first checks and reaches the later ones.
+// Each document gets the build and the replicate of this program, so that it passes the first checks and reaches the
+// later ones.
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,6 +1,3 @@
-// Property tested with arbitrary texts: a text is either rejected with an InputError, or it is a manifest whose
-// canonical form is read as the same manifest.
-
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>

@@ -1,6 +1,4 @@
-// Property tested with arbitrary documents: a document is either rejected with an InputError, or it gives a table. The
-// checksum is tested only with the unchanged text. For all other tests it is skipped, because a fuzzer would never find
-// the checksum of a changed text.
+// The checksum is tested only with the unchanged text, because a fuzzer would never find the checksum of a changed one.
 
 #include <cstdint>
 #include <cstdlib>

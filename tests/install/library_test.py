@@ -1,14 +1,4 @@
-"""Tests the installed C++ library. usage: library_test.py CMAKE BUILD SOURCE COMPILER
-
-- An independent program that finds an installed isojam can be built without a warning, even with its own strict
-  warnings. It is built with this compiler, and with clang if it is available; both programs print the same bits.
-- No installed file of the library contains the path of a build directory. The library still works after it was moved.
-- The program is compiled with the options on which the bits of the engine depend, but without the warnings and
-  optimisations of isojam.
-- The sources can be a part of another project. They provide the same target, nothing else of isojam is built, and the
-  build type and flags of the other project do not change.
-- An engine of another minor version is rejected. So is an engine whose METIS is missing; the message names its package.
-"""
+"""Tests the installed C++ library. usage: library_test.py CMAKE BUILD SOURCE COMPILER"""
 
 import json
 import pathlib

@@ -1,12 +1,5 @@
 """Tests the manual page and the shell completions. usage: shell_test.py CMAKE BUILD
 
-- groff reads the installed manual page without an error. The page has every command and option in the help, and
-  explains the exit codes. The synopsis shows which argument can be repeated.
-- bash, zsh and fish read the installed completions without a message. They complete commands, options, the choices of an
-  option, and directories for arguments that are directories, also if the argument is repeated or an option precedes the
-  command. They complete nothing for arguments that are numbers.
-- With `-o`, the completions and the manual page are written to a file instead of standard output.
-
 The test of a shell that is not installed is skipped, with a message.
 """
 

@@ -1,10 +1,4 @@
-"""Tests a build without optional packages. usage: without_pages_test.py CMAKE SOURCE PROGRAM
-
-- Without Vega, three.js, CGAL and valijson, the configuration prints the names of their packages and continues. Tests
-  of the engine are built, and tests that need one of these packages are not.
-- The program has all commands. `report` and `chart` end with exit code 2, and print the names of the packages and how
-  to configure the build. The other commands work.
-"""
+"""Tests a build without optional packages. usage: without_pages_test.py CMAKE SOURCE PROGRAM"""
 
 import subprocess
 import sys

@@ -1,12 +1,5 @@
-// Properties of user-defined solids tested here, with references to 100 digits. Their vertices are at origins up to
-// 1e8, in units from 1e-9 to 3e8, or rounded to 6, 9, 12 and 15 digits, with `merge` where this is needed:
-// - Each solid is one consistent polyhedron: the corners of a face are in its plane to 1e-28.
-// - It is the solid that was given: no corner moves by more than rounding or `merge` allows.
-// - For pairs of these solids with size ratios up to 10, V and S of the engine have the errors that overlap.hpp states.
-//   The pairs have two faces, an edge and a face, a corner and a face, or two edges in contact.
-// - The reference agrees with rational arithmetic to 60 digits. For a few pairs with faces that differ by 1e-9 rad it
-//   does not, and rational arithmetic decides.
-// The environment variable ISOJAM_ORACLE_PAIRS sets the number of pairs, for example to 20000.
+// Reference: 100 digits, checked against rational arithmetic, which decides for faces that differ by 1e-9 rad. The
+// environment variable ISOJAM_ORACLE_PAIRS sets the number of pairs, for example to 20000.
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,4 @@
-// Properties of evaluations in double-double tested here, with quadruple precision as reference:
-// - A few Newton steps bring jammed states to a residual far below 1e-9. In plain double, the residual of some of these
-//   states remains above 1e-8. If the low parts of positions or orientations are removed, the accuracy is lost.
-// - The computed residual differs from the true one by less than residual_floor. residual_floor is at most a few
-//   hundred times this difference.
-// - The error of the energy, and of its differences, is at most energy_noise.
-// - The Hessian agrees with differences of the gradient in quadruple precision to 1e-9, far from jamming and near it.
-// - Energy, gradient, stress and Hessian of mixtures of shapes and sizes agree as well.
+// Reference: quadruple precision.
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,4 @@
-// Property tested here for all five solids and a mixture, cells of every shape and both precisions, with and without
-// cohesion. The references are differences in quadruple precision. The gradient of the enthalpy with respect to the
-// particles and to all components of the cell has a relative error of at most 1e-9. So do the second derivatives of the
-// enthalpy.
+// Reference: differences in quadruple precision.
 
 #include <gtest/gtest.h>
 

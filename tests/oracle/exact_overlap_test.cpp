@@ -1,13 +1,4 @@
-// Properties tested here of the exact reference itself, without the engine:
-// - The five solids have unit volume to 1e-55, alone and coincident in every exact symmetry.
-// - Cubes, tetrahedra and wedges agree with the closed forms of V, S and M to 1e-50.
-// - Near the first contact of two solids in random orientations, V grows as the third power of the depth.
-// - V from the hull equals V from successive cuts, in every class of pairs, including degenerate ones.
-// - Exchanging the solids gives the same V, −S, and −M + r×S.
-// - S = ∂V/∂x_A and M = ∂V/∂θ_A by central differences of V with steps of 1e-12.
-// - If two faces lie in one plane, the gradient of V has no single value, and this is reported. For other contacts it
-//   is single-valued.
-// - Disjoint and touching pairs have V = 0.
+// Tests the exact reference itself, without the engine.
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-// Property tested here for whole replicates with N = 100, compressed, and decompressed to Δφ ≤ 0.004 (0.01 for
-// tetrahedra). If a residual of 1e-9 is requested, every stored state has a residual of at most 1e-9 in quadruple
-// precision. A table of the residuals is printed to standard output.
+// Whole replicates with N = 100, decompressed to Δφ ≤ 0.004 (0.01 for tetrahedra). Reference: residuals in quadruple
+// precision; prints a table of them.
 
 #include <gtest/gtest.h>
 

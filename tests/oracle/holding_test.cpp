@@ -1,13 +1,5 @@
-// Properties tested here for the stiffness of jammed octahedra, tetrahedra and icosahedra, with quadruple precision as
-// reference:
-// - The contributions to the energy of random motions, of the softest modes and of floppy motions sum to uᵀ(∂²E)u. The
-//   error is at most 1e-7 of this energy plus the rounding error of the second terms; the Hessian in double has much
-//   larger errors. The reference is differences of gradients. The contribution of the normals is ½ Σ (∇V·u)², even if
-//   it is as small as the rounding of u causes.
-// - The rows of normals are ∇V/|∇V|. The rows of tilts span the rotations that the edge or face opposes. The reported
-//   force residual is correct.
-// - The matrix of normals, and the matrix of normals and tilts, have the rank and the number of states of self-stress
-//   that Gaussian elimination with complete pivoting finds. The pivots that count as nonzero are far above the others.
+// References: differences of gradients in quadruple precision, because the Hessian in double has much larger errors;
+// Gaussian elimination with complete pivoting for the ranks.
 
 #include <gtest/gtest.h>
 

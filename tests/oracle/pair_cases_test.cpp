@@ -1,9 +1,4 @@
-// Properties tested here, for the pairs used by the accuracy tests:
-// - They depend only on the arguments of pair_cases(). All pairs of a class are different, except coincident pairs.
-// - Contacts have V/V_p in 1e-5..3e-2, spread over that range.
-// - Each class has the geometry in its name: small tilts, parallel edges, vertices that face each other, symmetric
-//   orientations, displacements parallel to a face, or displacements of 1e-16..1e-8.
-// - Quaternions of random contacts are not normalised.
+// Tests the pairs that the accuracy tests use.
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,4 @@
-// Properties tested here, for the evaluation in quadruple precision, which is the reference for the engine:
-// - Forces and torques are the derivatives of its energy, by central differences, to 1e-12.
-// - The sum of all forces is zero within the rounding of quadruple precision.
-// - It agrees with PackingEnergy where double is accurate enough, contact by contact.
+// Tests the evaluation in quadruple precision, which is the reference for the engine.
 
 #include "tests/oracle/quad_packing.hpp"
 

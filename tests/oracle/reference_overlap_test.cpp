@@ -1,6 +1,3 @@
-// Property tested here: volumes and vector areas computed with 50 digits agree with exact rational arithmetic, for
-// pairs without coinciding faces.
-
 #include "tasks/extras/chart/pairs/reference_overlap.hpp"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,4 @@
-"""These tests prove, of ten user-defined solids, N = 32:
-- the forces that are exported for a jammed packing balance as well as the record states, within a factor of 3, for
-  vertices at origins from 0 to 1e8, in units of length from 1e-9 to 1e9, and rounded to 6, 9, 12 and 15 digits;
-- solids whose vertices were rounded have the published numbers of faces, edges and vertices if `merge` is given, and
-  only triangular faces without it.
-
-usage: balance_test.py ISOJAM"""
+"""Tests packings of ten user-defined solids, N = 32. usage: balance_test.py ISOJAM"""
 
 import pathlib
 import sys

@@ -1,11 +1,4 @@
-"""These tests prove, of about 300 malformed and unusual files of solids (corpus.py, corpus_more.py):
-- a file that means a solid is read as this solid: numbers of faces, edges and vertices, and volume;
-- any other file is refused; one manifest reports all of them, each at its place, with the line, the expected word and
-  a remedy;
-- a file whose meaning the format leaves open is read as the solid that it means, or refused: never as another one;
-- a directory, a pipe and a device are refused at once, and no file takes long.
-
-usage: corpus_test.py ISOJAM"""
+"""Tests about 300 malformed and unusual files of solids (corpus.py, corpus_more.py). usage: corpus_test.py ISOJAM"""
 
 import os
 import pathlib

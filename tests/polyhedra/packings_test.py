@@ -1,9 +1,4 @@
-"""These tests prove, of about 110 malformed and unusual files of packings (corpus_packings.py):
-- a file that means 64 octahedra is accepted by `isojam validate`;
-- any other file is refused at /start, with the line in a text file, the expected word and a remedy;
-- `isojam run --dry-run` accepts and refuses the same files, of every tenth one.
-
-usage: packings_test.py ISOJAM"""
+"""Tests about 110 malformed and unusual files of packings (corpus_packings.py). usage: packings_test.py ISOJAM"""
 
 import pathlib
 import re

@@ -1,14 +1,4 @@
-"""Tests Study.contacts() for nearest states and for paths, in cubes, variable cells and mixtures.
-
-- The number of contacts agrees with Z of the same state, and the number of each class with the contributions to Z.
-- Forces on every particle are balanced, and so are torques about its centre, within the residual in the record.
-- A torque is that of the force at its point of application, apart from a component along the force. The force is V/2
-  times the vector area, opposite to the normal. Solids are those of the particles in the packing.
-- Angles are those of the record, and Δφ is that of the state.
-- The contacts of one replicate, those of all replicates, and an exported file have the same rows. A warning names a
-  failed replicate.
-- The error for a damaged packing has the message of the program and its command.
-- After measures were added to a record, packings and paths still belong to it."""
+"""Tests Study.contacts() for nearest states and for paths, in cubes, variable cells and mixtures."""
 
 import functools
 import subprocess

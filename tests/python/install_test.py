@@ -1,11 +1,4 @@
-"""Tests the installed module. usage: install_test.py CMAKE BUILD MODULE_DIR RESULTS
-
-- `cmake --install` installs the program and the module. The module finds this program, reads results and gets solids,
-  and needs nothing in the build directory.
-- If no program is installed with the module, it uses the program of the argument, of the environment variable, or on
-  the PATH, in this order.
-- If the module is imported from the source tree, where no build wrote facts.json, the error states from where to import
-  it."""
+"""Tests the installed module. usage: install_test.py CMAKE BUILD MODULE_DIR RESULTS"""
 
 import os
 import pathlib

@@ -1,10 +1,4 @@
-"""Tests that Python gives the means of the program.
-
-- Every number of every estimate in the JSON of `isojam aggregate` is in Study.table(), and the table has no other
-  estimates: for the nearest states, as functions of Δφ, with the excluded replicates, and for differences.
-- Rows.kept are the replicates that the program uses, and their means are those of the program. The means of all
-  replicates differ from these.
-- A notebook shows the table. Texts are escaped, long tables end early, and an error of the program is shown."""
+"""Tests that Python gives the means of the program."""
 
 import json
 import pathlib

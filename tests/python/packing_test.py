@@ -1,14 +1,4 @@
-"""Tests packings and solids.
-
-- Positions, orientations, cell, density and Δφ agree with the exported files: exactly with extended XYZ, apart from the
-  wrapping into the cell, and in single precision with GSD. This is tested for nearest states and for paths, in cubes
-  and in variable cells.
-- Corners are those of the exported solid, rotated by the exported quaternion.
-- Solids have unit volume and their centroid at the origin, and their faces are oriented outwards. The solids and sizes
-  in a mixture are the shapes in the exported GSD file, for each particle.
-- The volume of all particles divided by the volume of the cell is the density. Low parts are less than half a unit in
-  the last place.
-- A packing in which a list is missing or has the wrong length is rejected; the error states the place."""
+"""Tests packings and solids."""
 
 import json
 import pathlib

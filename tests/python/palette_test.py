@@ -1,9 +1,4 @@
-"""Tests the palette that the pages, the Python module and the examples share.
-
-- The module has the colours of the pages. Every solid has another colour and another marker.
-- The colours of the Platonic solids are Okabe and Ito's.
-- Styles are keyword arguments of matplotlib. Solids that are not in the palette get the styles that are left.
-- No script of a page and no example defines a colour of the palette again."""
+"""Tests the palette that the pages, the Python module and the examples share."""
 
 import json
 import pathlib

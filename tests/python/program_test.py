@@ -1,13 +1,4 @@
-"""Tests the communication between the module and the program. Small scripts replace the program.
-
-- If Python is interrupted, the program gets one signal, and Python waits for it. This is also true for Ctrl-C in a
-  terminal, which sends a signal to both.
-- Exit code 75 becomes KeyboardInterrupt. A line that is not a message in JSON is an error if the program failed, and a
-  warning otherwise.
-- Progress is a bar of tqdm if it is installed, otherwise one line on a terminal, and lines of text elsewhere. Without
-  `progress`, nothing is shown.
-- If the versions of program and module differ, one warning states both. If their files differ, an error does.
-- The types in the module are consistent. This is tested if mypy is installed."""
+"""Tests the communication between the module and the program. Small scripts replace the program."""
 
 import os
 import pathlib

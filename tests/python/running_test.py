@@ -1,13 +1,4 @@
-"""Tests isojam.run, isojam.measure and isojam.aggregate.
-
-- A manifest in memory and a manifest in a file give a Study, and files with the same bytes as the program itself
-  writes.
-- A manifest may contain numbers and arrays of numpy, and paths. Relative paths are relative to the current directory.
-- Measures are added to a directory. Its table is written again, with the numbers of tables.json.
-- All errors of a manifest are reported with JSON pointer, reason and remedy, and nothing is written.
-- Failed replicates cause a warning. Other failures of the program raise ProgramError.
-- After an interrupted run, the same call completes the directory. It then has the same bytes as after an undisturbed
-  run."""
+"""Tests isojam.run, isojam.measure and isojam.aggregate."""
 
 import contextlib
 import json

@@ -1,12 +1,4 @@
-"""Tests the checksums of files.
-
-- The hash is equal to FNV-1a computed byte by byte, for all lengths near those of blocks and words. It also has the
-  known values of the reference.
-- Every file in the results has the checksum that it contains.
-- A changed byte anywhere in a record, packing, path or manifest is detected, and the error names the file. With
-  check=False, the file is read without an error.
-- An undamaged packing of another record is rejected. So is a record with the name of another replicate.
-- A file that is missing, truncated, of another schema, or not a regular file is rejected; the error names it."""
+"""Tests the checksums of files."""
 
 import re
 

@@ -1,14 +1,4 @@
-"""Tests the rows of replicates and states.
-
-- The mean of each quantity is that in tables.json, both without and with the excluded replicates. The numbers of
-  replicates, of failed and of excluded ones agree too, and so do the rows of the table.
-- Each quantity of a state is the number at its pointer in the record. Null is NaN, and the reason is in the row.
-- A failed replicate has no rows of states, even if its record has states.
-- Swept parameters, flags, failures and their reasons are columns. If `residual` is swept, its column differs from the
-  column of the residual that was reached.
-- Everything except frame(), groupby() and table() works without pandas. A frame has the columns and values of its rows.
-- Rows can be selected by masks and by values. An unknown column is an error that suggests a similar one.
-- A directory without records, a path that is not a directory, and unknown names are rejected."""
+"""Tests the rows of replicates and states."""
 
 import copy
 import json

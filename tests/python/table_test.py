@@ -1,11 +1,4 @@
-"""Tests tables in files, and the calls of the program for tables.
-
-- Numbers of any length keep all their bits. An empty field is null. Three columns _x, _y, _z become a vector.
-- Flags are tuples, and reasons are dicts.
-- Each column has its type, even if all its values are integers or missing, and even if there are no rows.
-- CSV, JSON lines, and an open file give the same rows.
-- A file that does not contain a table is rejected; the error states the file and the line.
-- The program is called for contacts with the documented arguments. Its errors and warnings are passed on."""
+"""Tests tables in files, and the calls of the program for tables."""
 
 import io
 import json

@@ -1,10 +1,3 @@
-// Properties tested here, for clusters with exactly known results:
-// 1. S, l_max and the longest cluster are correct for clusters with given sizes and extents.
-// 2. The fractal dimension D is 1 for straight chains, near 2 for sheets, near 3 for blocks, and near the exact value
-//    for a self-similar cluster.
-// 3. Rings through the periodic boundary, small clusters and coincident particles have no D. The verdict states the
-//    reason.
-
 #include "engine/analysis/cluster_statistics.hpp"
 
 #include <gtest/gtest.h>

@@ -1,16 +1,3 @@
-// Properties tested here, for clusters with exactly known results:
-// 1. A winding is a closed path of bonds that ends at another periodic image. Single particles, a chain, a helix and a
-//    plane sheet have no winding. A ring or a helix through the boundary has one independent winding, a sheet through
-//    the boundary has two, and a full lattice has three. The extents are those of the construction.
-// 2. A chain that is longer than the cell spans, but has no winding. A shorter chain does not span.
-// 3. Windings are found for all closed paths: a knight's move, a double winding, and a particle bonded to its own
-//    image. Two strands in opposite directions have none.
-// 4. The results do not depend on the order, direction or repetition of bonds, or on the periodic image of a particle's
-//    position. Renumbering the particles renumbers the labels. For random bonds, they agree with a breadth-first search
-//    through the periodic images. The number of independent windings agrees with another method.
-// 5. The bonds of face-face contacts are those of contacts in this class. Bonds of particles that do not exist, and
-//    statistics without a cluster, are rejected.
-
 #include "engine/analysis/clusters.hpp"
 
 #include <gtest/gtest.h>

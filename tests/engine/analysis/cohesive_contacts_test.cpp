@@ -1,9 +1,3 @@
-// Properties tested here:
-// - Two parallel cubes that overlap by the depth d are under tension exactly if w (1 + h)² > d/2, and attract each
-//   other exactly if their distance is below h.
-// - For two octahedra with random orientations, a contact is under tension exactly if the energy increases when one of
-//   them moves along the vector area of the contact, out of the other one.
-
 #include "engine/analysis/cohesive_contacts.hpp"
 
 #include <gtest/gtest.h>

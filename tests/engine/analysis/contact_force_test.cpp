@@ -1,16 +1,3 @@
-// Properties tested here:
-// 1. For each particle, the forces and torques of its contacts sum to the gradient of the energy in double-double,
-//    within rounding errors. This holds in random packings, jammed packings, mixtures and sheared cells. V, S and M of
-//    a contact are those that overlap() computes.
-// 2. About its point of application, a force only has a torque along itself, for both solids. The torques of the two
-//    solids differ by r × F. The point is half way between the ends of the intersection.
-// 3. For two bricks face to face, depth, area, force and point of application agree with elementary geometry.
-// 4. Vertices in faces, crossed edges, edges in faces and faces on faces are identified, for random constructions with
-//    every Platonic solid and for both orders of the solids.
-// 5. If the two solids are exchanged, translated by a lattice vector or rotated together, the results change only as
-//    the frame does.
-// 6. Contacts are found in double-double by default: a flat contact with a depth of 1e-17 then has its force to 1e-9.
-
 #include "engine/analysis/contact_force.hpp"
 
 #include <gtest/gtest.h>

@@ -1,21 +1,3 @@
-// Properties tested here:
-// 1. Classes: a contact is face-face if θ_ff is below its cut-off. Otherwise it is edge-face if θ_ef is below its
-//    cut-off, and lower-order if not. An angle equal to a cut-off is not below it.
-// 2. Numbers: each contact counts for two particles, Z = Z_ff + Z_ef + Z_l, C = 3 Z_ff + 2 Z_ef + Z_l. Larger fixed
-//    cut-offs never decrease C.
-// 3. Random contacts of all four topologies, as overlap() finds them, are identified for every Platonic solid and in
-//    any order.
-// 4. Each angle is fitted in its own window [0, θ_c,min/2], where θ_c,min is its smallest critical angle.
-// 5. If a fit finds no jump, or has too few angles, its class contains no contacts.
-// 6. The gap method finds the same face-face contacts if their angles are decades below the others. If there is no gap,
-//    the verdict states this.
-// 7. Fixed cut-offs give means over six classifications, and a much larger constraint number.
-// 8. The contacts of several packings are fitted together, like those of one packing. Each packing is then classified
-//    separately. A pool of one packing gives the same as the packing itself.
-// 9. If two faces are nearly in one plane, the windows are too narrow for a fit. The classes then have no cut-off, and
-//    Z and the numbers with fixed cut-offs are those of any other solid.
-// 10. The results for no contact, one contact, and perfectly aligned contacts are defined.
-
 #include "engine/analysis/contacts.hpp"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,3 @@
-// Properties tested here:
-// - Gaps in packings agree with a search over all pairs and images. Pairs that touch have no gap.
-// - Gaps between two vertices are found, although their width is smaller than the gap of the circumscribed spheres.
-// - The gap is h if a vertex, an edge or a face is at a distance h from a parallel face, or if two crossed edges are at
-//   this distance. The kind of the gap is correct. A gap does not depend on the order of the particles.
-// - A largest gap that is not positive is rejected.
-
 #include "engine/analysis/gaps.hpp"
 
 #include <gtest/gtest.h>

@@ -1,18 +1,3 @@
-// Properties tested here, for a packing of octahedra (N = 48) near its jamming point, and for states above it:
-// 1. Contacts whose features show that they are vertex-face or edge-edge have angles below the critical angles of the
-//    paper's Table II. Some angles are close to the larger critical angles.
-// 2. The methods with fits and with gaps find the same face-face contacts within their errors. Fixed cut-offs give a
-//    much larger constraint number. If all states are pooled, their cut-offs are those of a fit to all angles, and the
-//    contacts of each state are counted with them.
-// 3. There are more small θ_ef than for random contacts (hyper-random), as in the paper.
-// 4. Every particle belongs to one cluster of face-face contacts, and every bond is inside a cluster. S follows from
-//    the sizes.
-// 5. The packing is disordered: Q6 is below the limit for `crystalline`, and the orientations are not more aligned than
-//    by chance.
-// 6. A perfect crystal of slightly compressed cubes has defined results. All contacts are face-face with both methods,
-//    and the order is perfect. One cluster winds in all directions and therefore has neither l_max nor a fractal
-//    dimension.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

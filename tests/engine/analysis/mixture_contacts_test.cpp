@@ -1,12 +1,3 @@
-// Properties tested here, for packings of several shapes and sizes:
-// - Every contact is classified by the cut-offs of its own pair of shapes, which are fitted only to their contacts.
-// - All contacts of one shape in several sizes are fitted together, as for a single size.
-// - The contact numbers of the kinds, weighted by their numbers of particles, give the contact numbers of all
-//   particles.
-// - The critical angles of two shapes do not depend on their order. For two equal shapes they are those of the solid.
-//   For crossed edges they are the largest angles that a search over rotations of both edges finds.
-// - The alignment angles belong to the features of the two solids, whichever is A.
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

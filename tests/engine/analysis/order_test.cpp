@@ -1,8 +1,3 @@
-// Properties tested here:
-// - Q_l is 1 for parallel and antiparallel bonds, and 0 without bonds.
-// - Q4 and Q6 of the simple cubic, face-centred cubic and icosahedral neighbour shells agree with their closed forms.
-// - Q_l does not depend on rotation, length or order of the bonds, and is about 1/sqrt(n) for n independent bonds.
-
 #include "engine/analysis/order.hpp"
 
 #include <gtest/gtest.h>

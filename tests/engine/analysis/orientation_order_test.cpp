@@ -1,19 +1,3 @@
-// Properties tested here:
-// 1. The rank is 3, 4, 4, 6, 6 for the Platonic solids and 2 for a box. The order at lower ranks is zero.
-// 2. The product of two particles, computed from harmonics, is the double sum of P_l over their vertices. The product
-//    of a particle with itself is 1.
-// 3. Particles that are rotated by symmetries of their solid are still aligned: S = 1. Two grains of equal size whose
-//    particles have the product q give S = sqrt((1 + q)/2). Independent orientations give N·S² = 1 on average. Rotating
-//    the whole packing changes nothing.
-// 4. For cubes S is the cubatic order of their three axes.
-// 5. Local Q_l of a simple cubic lattice is the closed form; a particle without contacts has none.
-// 6. The pair correlation agrees with a direct mean over pairs and images. For a lattice, its counts are those of the
-//    neighbour shells. It is 1 for aligned particles, and 0 within statistical errors for random ones.
-// 7. The limits of S and of the local order separate independent orientations from crystals whose particles are rotated
-//    at random by about five degrees. A polycrystal is found by its local order alone, which agrees with a direct mean.
-//    They also separate the disordered jammed packings with which they were chosen from the ordered ones.
-// 8. The results for N = 1, 2, 3 and for no contacts are defined. Invalid input is rejected.
-
 #include "engine/analysis/orientation_order.hpp"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,3 @@
-// Properties tested here:
-// - g(r) of a simple cubic lattice has its peaks at the distances of the lattice, with the numbers of neighbours. It
-//   does not change if all particles move across the cell.
-// - g(r) of independent positions is 1 within its statistical error.
-// - In a skew cell, g(r) agrees with a search over all images. It ends at half of the shortest lattice translation.
-// - A width that is not positive is rejected.
-
 #include "engine/analysis/pair_distribution.hpp"
 
 #include <gtest/gtest.h>

@@ -1,11 +1,3 @@
-// Properties tested here:
-// 1. If a vertex is pushed into a face, or an edge into a crossed edge, the depth is the distance of the push. This
-//    holds for every Platonic solid, whichever is A.
-// 2. No sampled direction separates two solids with a shorter translation than the depth. The solids are equal or
-//    different.
-// 3. If two faces are parallel within the rounding of double, quadruple precision gives the same depth whichever solid
-//    is A.
-
 #include "engine/geometry/overlap/penetration.hpp"
 
 #include <gtest/gtest.h>

@@ -1,12 +1,3 @@
-// Properties tested here:
-// - For constructed clusters, S, the largest cluster, the winding rank and n_s are those of the construction. For
-//   random bonds, S is that of cluster_statistics().
-// - Random bonds: with no bonds, each particle is a cluster. With all contacts, each draw is the whole packing. With
-//   one bond, S and the largest cluster have one possible value. With two of the three bonds of a chain, the mean S is
-//   that of all pairs of bonds within five standard errors. In a ring through the boundary, only all bonds together
-//   wind.
-// - The same key of the stream gives the same result. More bonds than contacts, and no draws, are rejected.
-
 #include "engine/analysis/percolation.hpp"
 
 #include <gtest/gtest.h>

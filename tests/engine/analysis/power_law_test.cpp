@@ -1,10 +1,3 @@
-// Properties tested here:
-// - For data that follow a power law exactly, the fit gives its exponent with a confidence interval of width 0. The
-//   units of x and y affect only the prefactor.
-// - For noisy data, 95 % of the confidence intervals contain the exponent.
-// - The exponent of three points agrees with a calculation by hand. Two points have no confidence interval.
-// - Points that are not positive and finite are ignored. Without two different x there is no result.
-
 #include "engine/analysis/power_law.hpp"
 
 #include <gtest/gtest.h>

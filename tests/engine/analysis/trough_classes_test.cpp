@@ -1,12 +1,3 @@
-// Properties tested here:
-// 1. Bins of angles: every angle is in the bin between its two edges, and a contact is below an edge as classify()
-//    counts it. Angles from 0 to π have a bin; others are rejected.
-// 2. For any two bins as cut-offs, the numbers from the histogram are those of classify() and contact_numbers().
-// 3. Histograms add: the sum is the histogram of all contacts together. Weights are factors of all numbers.
-// 4. For synthetic contacts of three known classes, each contact is in its class. Without parallel faces, only the
-//    cut-off of θ_ff is undecided.
-// 5. Contacts of packings that are too few for a trough have one if the packings are pooled.
-
 #include "engine/analysis/trough_classes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,4 @@
-// Properties tested here:
-// - Quantiles of Student's t and of the normal distribution, and tails of the binomial distribution, agree with
-//   Boost.Math in quadruple precision. The relative error of t is at most 1e-15 for 1 to 100 000 degrees of freedom and
-//   probabilities from 0.5 to 0.999. Normal quantiles are tested for probabilities from 1e-12, tails for few and for
-//   many trials.
-// - Quantiles are odd functions about the probability 0.5. The two tails of a binomial distribution sum to 1.
+// Reference: Boost.Math in quadruple precision.
 
 #include "engine/arithmetic/distributions.hpp"
 

@@ -1,9 +1,3 @@
-// Properties tested here:
-// - Every function of nearest:: returns the double nearest to its value in 50 digits, at random arguments of all
-//   magnitudes, near its zeros and near the ends of its domain.
-// - Infinities, NaN, signed zeros and arguments outside the domain give the same as with the standard library.
-// - sinc has a relative error of at most 2 ε. It is even, and 1 at 0.
-
 #include "engine/arithmetic/elementary.hpp"
 
 #include <gtest/gtest.h>

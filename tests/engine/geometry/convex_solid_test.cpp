@@ -1,8 +1,3 @@
-// Properties tested here:
-// - The Platonic solids have unit volume, centroid 0, Euler characteristic 2 and the radii of their closed forms.
-// - Every edge follows the order of vertices in its left face, and the reverse order in its right face.
-// - The constructor rejects too few vertices, coplanar vertices, and points that are not corners.
-
 #include "engine/geometry/convex_solid.hpp"
 
 #include <gtest/gtest.h>

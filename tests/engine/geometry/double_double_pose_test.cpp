@@ -1,12 +1,4 @@
-// Properties tested here, with quadruple precision as reference:
-// - A step of 1e-25 changes the pose by 1e-25. A thousand steps change it by their sum.
-// - moved(), scaled() and deformed() give poses in which the first double of each number is the nearest double.
-// - moved() rotates by exp(θ), and |q| is then 1 with an error of about 1e-31. rotation_matrix() and moved() do not
-//   depend on the length of q.
-// - rotation_matrix() and the vertices and normals of placed solids have errors of about 1e-31.
-// - relative_pose() with low parts gives the rotation of B relative to A, and agrees with the version in double.
-// - A solid's constants have errors of about 1e-31: planes through their vertices, unit normals, unit volume, centroid
-//   0.
+// Reference: quadruple precision.
 
 #include <gtest/gtest.h>
 

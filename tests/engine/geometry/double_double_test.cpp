@@ -1,8 +1,4 @@
-// Properties tested here, with quadruple precision as reference, for numbers of both signs and magnitudes 1e-30 … 1e30:
-// - two_sum and two_product are exact. So is fast_two_sum if its terms are in order.
-// - Every operation returns high = fl(high + low) and has the relative error stated in the header, also for sums of
-//   nearly opposite numbers.
-// - Roots in quadruple precision are correct to their last digits, and narrowing to double-double keeps 1e-32.
+// Reference: quadruple precision.
 
 #include "engine/geometry/double_double.hpp"
 

@@ -1,14 +1,3 @@
-// Properties of solids made from rounded vertices tested here, for prisms, antiprisms and the other built-in solids in
-// random orientations, with sizes of 1e-9 … 1e9 and origins up to 1e8 sizes away:
-// - The numbers of faces, edges and vertices are those of the exact solid, and no vertex moves by more than the
-//   tolerance within which vertices form a face.
-// - Every corner is in the plane of its face within 1e-30, every other vertex is below the plane, and the stored
-//   heights agree with both.
-// - The vertices as given reproduce the solid to the last bit, and its origin changes only rounding errors.
-// - Faces of vertices written with 6 … 15 digits are joined by repaired(), and then have the same properties.
-// - The built-in solids and boxes are planar as they are, and with_planar_faces() returns each bit of them.
-// - Vertices far from their planes, and solids that are not convex, are rejected.
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

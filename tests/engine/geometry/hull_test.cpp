@@ -1,13 +1,3 @@
-// Properties of convex hulls tested here:
-// - No point is above a triangle of the hull in exact arithmetic, and the triangles close a surface. This holds for
-//   points on a sphere, on a grid, near a plane, and near a line.
-// - The faces are those that a search over all triples of points finds, for points on spheres and for solids whose
-//   faces have many corners.
-// - A hull of 5000 points takes a number of steps that grows with the square of the number of points.
-// - The removal of the smallest corner removes the corner whose removal changes the volume of the hull least, compared
-//   with the hulls without each of the corners. The result is convex.
-// - Points that coincide, or are on an edge, on a face or inside, are named.
-
 #include "engine/geometry/hull.hpp"
 
 #include <gtest/gtest.h>

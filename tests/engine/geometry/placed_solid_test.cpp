@@ -1,13 +1,3 @@
-// Properties tested here, for random pairs of all solids:
-// - All arrays of a placed solid are those of the rotated solid within rounding errors.
-// - The entries of the table of distances are as defined. Vertices without a row and edges that are not listed are
-//   outside the other solid. The smallest and largest entries are those of the rows. After entries have been changed,
-//   classify() is correct.
-// - The overlap of placed solids is the overlap of the pair seen from A, rotated into the lab frame. The same holds for
-//   all three blocks of its Hessian, whose computation gives exactly the same volume.
-// - An axis separates placed solids if, and only if, its gap in A's frame is larger than the tolerance, apart from
-//   rounding errors.
-
 #include "engine/geometry/placed_solid.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,3 @@
-// Properties tested here:
-// - A relative pose transforms points of B's body frame like the transformation through the lab frame.
-// - If A and B are exchanged, the relative pose is inverted. If both bodies are rotated together, it does not change.
-// - rotated(q, θ) is exp(θ)·q: it follows Rodrigues' formula with θ in the lab frame, rotations about the same axis add
-//   up, and the norm stays 1. θ = 0 and the smallest θ need no separate treatment.
-
 #include "engine/geometry/pose.hpp"
 
 #include <gtest/gtest.h>

@@ -1,13 +1,3 @@
-// Properties of repaired() and shape_of() tested here:
-// - Without repairs, the points are returned as they are; without permission, points that are not corners are errors
-//   that name the point.
-// - Corners of triangles that differ by up to 1e-6 are welded: a tetrahedron with 12 such corners has 4 corners.
-// - A subdivided cube whose points have noise becomes a cube again, and a cube from which a corner is cut stays one.
-// - A stone is reduced to the requested number of corners, and the change of its volume is reported.
-// - Results of repaired() need no repair.
-// - shape_of() reports the numbers of features and the volume in the given units, and suggests a `merge` that joins
-//   the faces of solids written with 6 or 9 digits, or in single precision.
-
 #include "engine/geometry/repair.hpp"
 
 #include <gtest/gtest.h>

@@ -1,16 +1,3 @@
-// Properties tested here:
-// - The built-in solids have the numbers of faces, edges and vertices of their definitions, edges of equal length to
-//   1e-30, and the volume given by closed forms for that length. Prisms and antiprisms have the requested number n of
-//   sides.
-// - The hull of points on a sphere has each of them as a vertex, and all points are on one side of every face.
-// - A hull with more than 192 edges, 128 faces or 128 vertices is rejected with a message; one with 192 edges and 128
-//   faces is accepted.
-// - If a point is no vertex of the hull, the error names it: it coincides with another point, or is on an edge, on a
-//   face, or inside.
-// - The inertia tensor of a box agrees with textbooks. Solids whose three moments of inertia are equal (spherical tops)
-//   are identified.
-// - Equal names and vertices give the same Solid, and the order of solids is as documented.
-
 #include "engine/geometry/solids/solid.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,3 @@
-// Properties tested here:
-// - Every enumerator has one name and is found by this name. Other names find nothing.
-// - Values and names are in the order of the list, and are known at compile time.
-
 #include "engine/names/enum_names.hpp"
 
 #include <gtest/gtest.h>

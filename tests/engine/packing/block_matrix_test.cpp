@@ -1,5 +1,3 @@
-// Property tested here: the product of a block matrix with a vector equals that of the full symmetric matrix.
-
 #include "engine/packing/block_matrix.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,3 @@
-// Properties tested here:
-// - Two parallel cubes with a gap g < h have the energy −w (h − g) (1 + h)², and cubes with g > h have none.
-// - The energy without cohesion has the same bits as with the strength 0.
-// - Growing scales solids with equidistant faces, in mixtures by their inradii; other solids are rejected.
 // Derivatives are tested in tests/oracle/enthalpy_derivatives_test.cpp.
 
 #include "engine/packing/cohesion.hpp"

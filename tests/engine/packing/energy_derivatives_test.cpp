@@ -1,11 +1,4 @@
-// Properties tested here for random packings of all solids, with central differences as reference:
-// - The gradient is the derivative of the energy along random directions of all 6N coordinates and along single
-//   coordinates. The same check detects a wrong sign of the torques or of the forces.
-// - The pressure is −dE/dV_cell, and N p/φ² = dE/dφ.
-// - The stress is (1/V_cell) dE/dε for each of the nine components of the strain ε that is applied to the displacements
-//   of the contacts.
-// - The Hessian is the derivative of the gradient, up to ½ θ×T for rotations of particles that are not in equilibrium.
-//   Translations are its null vectors.
+// Reference: central differences.
 
 #include <gtest/gtest.h>
 

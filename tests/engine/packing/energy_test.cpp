@@ -1,11 +1,4 @@
-// Properties tested here, for random packings of all solids:
-// - Energy, gradient, stress, contacts and mean force agree with sums over all pairs of particles.
-// - Forces sum to zero. The sum of the torques follows from the antisymmetric part of the stress.
-// - The energy does not change if all particles are translated, one particle is shifted by the side, particles are
-//   renumbered, or the whole cell is rotated by 90°. The gradient transforms accordingly.
-// - Residual and mean force follow their definitions, including the special cases without contacts.
-// - Every pair in the neighbour list is counted once: as out of reach, as rejected by its separating axis, or as passed
-//   to overlap().
+// Reference: sums over all pairs of particles.
 
 #include "engine/packing/energy.hpp"
 

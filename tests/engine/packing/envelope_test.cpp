@@ -1,12 +1,3 @@
-// Properties tested here, for random packings of every solid:
-// - With the multipliers of the present contacts, value, gradient and contacts of the envelope are those of the energy.
-// - Its gradient agrees with differences of its value, and its curvature with differences of its gradient.
-// - The envelope is below the energy for all multipliers for which the ghosts (the shifted copies of particles) touch.
-//   It increases with the stiffness.
-// - An evaluation for a set of flagged particles gives those contacts of the full list that have a flagged particle. If
-//   only these particles move, these contacts and the unchanged ones give the full result.
-// - Earlier evaluations and the number of threads change no bit.
-
 #include "engine/packing/envelope/envelope.hpp"
 
 #include <gtest/gtest.h>

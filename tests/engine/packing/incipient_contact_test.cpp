@@ -1,15 +1,3 @@
-// Properties tested here:
-// - Without a probe distance the pairs are those that touch. With a probe distance there are also pairs that would
-//   overlap if one of the two were moved closer by this distance. The pairs are in order.
-// - A pair has two linearised overlaps. They are the tangents of V in the present state and in the state with the gap
-//   closed, by central differences.
-// - For two parallel faces at a distance `gap`, the second tangent has the value −area·gap in the present state. Its
-//   slope for the approach is the area.
-// - For a flat contact, V is above both tangents for every small approach and tilt.
-// - Two nearly parallel faces that touch at a corner get the tilt stiffness of the whole face, if the probe distance is
-//   at least the height by which the tilt raises the far edge. This stiffness is 0 about the common normal and positive
-//   about every axis in the face.
-
 #include "engine/packing/incipient_contact.hpp"
 
 #include <gtest/gtest.h>

@@ -1,13 +1,3 @@
-// Properties tested here:
-// - The numbers of each kind are exact, sizes are the quantiles of their distribution, and the mean volume is 1.
-// - A mixture of one kind and one size is the same as the solid, and its packings have the same bits.
-// - Neighbours, found with the radii of the particles, agree with a search over all pairs, for sizes up to 30 : 1 and
-//   in skew cells. There are far fewer of them than pairs within the reach of the largest particles.
-// - Energies agree with sums over all pairs, which clipping computes, whatever was evaluated before.
-// - With the multipliers of the present contacts the envelope equals the energy. Its gradient is the derivative of its
-//   value for any multipliers.
-// - A step rotates every particle by R·θ divided by its own R.
-
 #include "engine/packing/mixture/mixture.hpp"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,4 @@
-// Properties tested here:
-// - Both neighbour searches give every pair and image within reach exactly once, and no others. The reference is a
-//   search over many images. The reach is from a fraction of the mean distance to more than the side of the cell. Some
-//   positions are outside the cell or on the borders of grid cells.
-// - The grid search gives the same pairs in the same order as the search over all pairs, up to N = 2000.
-// - The same is true in skew cells. In cells that are not reduced, pairs and distances are those of the reduced cell.
-// - On a simple cubic lattice every particle has 6 neighbours, then 18, then 26.
+// Reference: a search over many images.
 
 #include "engine/packing/neighbours.hpp"
 

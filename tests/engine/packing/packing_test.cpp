@@ -1,12 +1,3 @@
-// Properties tested here:
-// - A random packing has the requested density, depends only on its stream, and is distributed evenly in the cell and
-//   on SO(3).
-// - random_packing() throws for zero particles, for a density outside (0, 1], and for a cell that is too small for the
-//   minimum image convention. The energy of a packing in such a cell throws too.
-// - In the smallest legal cell no particle touches two images of another one, nor itself.
-// - Strain moves centres affinely and does not change orientations. moved() adds dx and rotates by dθ. Both keep the
-//   low parts: a strain followed by its inverse changes positions by at most 1e-30, and a step of 1e-25 is not lost.
-
 #include "engine/packing/packing.hpp"
 
 #include <gtest/gtest.h>

@@ -1,14 +1,3 @@
-// Properties tested here, for pairs of every solid from deep overlaps to gaps, with multipliers and stiffnesses over
-// six decades:
-// - The computed shift w of the ghost minimises e(w) + ½ρ|w|² − μ·w: no other trial shift gives a smaller value. Here e
-//   is the energy of the pair with the shifted ghost, ρ the stiffness and μ the multiplier. The envelope is below the
-//   energy.
-// - The gradient is the difference of the value, and the curvature is the difference of the gradient.
-// - If both bodies move together, only the frame changes. If there is a gap, there is no force, and the shift is μ/ρ.
-// - With the multiplier μ = ∇e, the shift is 0 and the envelope is the energy.
-// - For two faces pressed together, the envelope is that of a spring, which is known in closed form, at depths down to
-//   1e-10.
-
 #include "engine/packing/envelope/proximal_contact.hpp"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,3 @@
-// Properties tested here, bit for bit:
-// - An evaluation, a Hessian (in either precision) and a list of contacts depend only on the packing. They do not
-//   depend on earlier evaluations (other solids, sizes, densities, cells; moves that keep or rebuild the neighbour
-//   list), on 1 or 2 threads, or on cancellation of the enclosing task.
-// - Eigen divides products of matrices into the blocks for caches of 32, 256 and 2048 KiB, whatever caches the machine
-//   has.
-
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_group.h>

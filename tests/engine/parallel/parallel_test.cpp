@@ -1,12 +1,3 @@
-// Properties tested here, for 1, 2 and 5 threads:
-// - A loop calls every index once. A forest (a set of trees) calls every node once, after its children, and each node
-//   sees what its children wrote.
-// - If a node returns false, the forest returns false and skips its ancestors.
-// - An exception of a call is thrown to the caller after all running calls have ended. The test uses a loop, a forest,
-//   and a loop inside a forest.
-// - A thread that waits in a loop or a forest does not start calls of an enclosing loop. If the enclosing loop is
-//   cancelled, the inner loop does not skip calls.
-
 #include "engine/parallel/parallel.hpp"
 
 #include <gtest/gtest.h>

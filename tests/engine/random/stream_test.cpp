@@ -1,11 +1,3 @@
-// Properties tested here:
-// - The bits of a stream depend only on its key, and are those that the C++ standard prescribes.
-// - Keys that differ in a word, in the upper half of a word, in order or in length give different streams.
-// - Uniform numbers are multiples of 2^-53 in [0, 1) from the upper bits of the stream, evenly distributed and
-//   uncorrelated.
-// - Normal numbers have the moments of the standard normal distribution.
-// - hash_of is 64-bit FNV-1a.
-
 #include "engine/random/stream.hpp"
 
 #include <gtest/gtest.h>

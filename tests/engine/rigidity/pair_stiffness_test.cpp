@@ -1,15 +1,3 @@
-// Properties tested here:
-// - The stiffness of a contact consists of its normal and the second term. The sum over all contacts is the Hessian of
-//   the packing, in jammed states of four solids and in random packings.
-// - Tilts are orthonormal. They are perpendicular to the normal and to common motions of the pair. They diagonalise the
-//   second term, with stiffnesses in descending order.
-// - For any threshold, the contributions of normals, stiff tilts and prestress sum to the energy of any motion or mode.
-// - A vertex in a face has no stiff tilt. An edge in a face has one, whose stiffness s is proportional to 1/depth. Two
-//   faces that touch over their whole polygon have none. If the faces separate within the polygon, they have one or
-//   more.
-// - The rows of constraints have unit length, and their number is C_s N/2. The rows multiplied by the forces give the
-//   gradient.
-
 #include "engine/rigidity/pair_stiffness.hpp"
 
 #include <gtest/gtest.h>

@@ -1,17 +1,3 @@
-// Properties tested here:
-// - Rows have unit length and vanish for translations, and rowsᵀ·forces is the gradient of the energy.
-// - The rows of a constructed contact, chosen by its class, do not oppose the motions that its shape allows: sliding,
-//   rotation about the normal, and rotation about an edge in a face. They oppose all other motions. The number of rows
-//   is C·N/2.
-// - For every state of jammed octahedra, tetrahedra and icosahedra, and of cubes, the number of constraints follows
-//   from the classes of the contacts. The numbers of states of self-stress and floppy motions, and the rank, agree with
-//   the singular values. Zero and nonzero singular values are orders of magnitude apart.
-// - In the nearest state the normals have exactly one state of self-stress: the contact forces. Cubes have more than
-//   one redundant constraint per particle.
-// - A basis of the states of self-stress is orthonormal, and each of its elements balances on every particle.
-// - The rank is correct for matrices whose rank is known: with repeated rows, with the rows of a tree, and without
-//   rows.
-
 #include "engine/rigidity/rigidity.hpp"
 
 #include <gtest/gtest.h>

@@ -1,17 +1,3 @@
-// Properties tested here, for jammed octahedra in pure shear and dodecahedra in simple shear, in a variable cell and
-// with both controls:
-// - With strain control, stress divided by strain of a small step is the shear modulus of the elastic tensor, to 1e-6.
-//   With stress control, it is the modulus that follows from the inverse tensor.
-// - Stress is the derivative of the energy: work and energy agree to second order in the step. Without a rearrangement,
-//   no energy is dissipated.
-// - If a load within the elastic range is reversed, the energy returns to its initial value, to 1e-9.
-// - With stress control, the stress is the requested one, −p·1 + τ, within the residual. The pressure p is the initial
-//   one.
-// - At large loads the packing rearranges. The drop of the stress is reported, energy is dissipated, and the stored
-//   energy decreases.
-// - Beyond the yield stress there is no equilibrium, and this is reported.
-// - Packings that are not jammed, and invalid steps, are rejected.
-
 #include "engine/shear/shear.hpp"
 
 #include <gtest/gtest.h>

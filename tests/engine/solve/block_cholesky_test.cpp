@@ -1,12 +1,4 @@
-// Properties tested here for matrices plus a shift of the diagonal. The matrices are Hessians of random packings with 1
-// … 200 particles, some without contacts, and random matrices with other patterns (a chain, a star, two clusters, a
-// full matrix):
-// - The product H x is the same with the blocks and with the dense matrix.
-// - The solution has a backward error of a few roundings. It agrees with Eigen's dense LLT and sparse SimplicialLDLT
-//   within the error that the condition number allows.
-// - A shift slightly above −λ_min is accepted. A shift slightly below it and a singular matrix are rejected.
-// - A factor that was used before gives the same bits as a new factor. The earlier matrix had the same pattern or
-//   another one, or was rejected.
+// References: dense LLT and sparse SimplicialLDLT of Eigen, within the error that the condition number allows.
 
 #include "engine/solve/factor/block_cholesky.hpp"
 

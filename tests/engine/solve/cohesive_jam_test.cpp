@@ -1,11 +1,3 @@
-// Properties tested here for octahedra (N = 48), with large steps:
-// - At zero pressure, cohesion and contact forces are in equilibrium. The stress vanishes: in a cubic cell its trace,
-//   and in a free cell all components. Particles touch.
-// - If cohesion acts only during compression, the states of the decompression are equilibria without cohesion.
-// - A run that continues from any saved progress gives the same bits.
-// - Particles that attract nothing end the run with the status `detached`, and a cell that is too small for the grown
-//   particles ends it with `cell_limit`.
-
 #include "engine/packing/enthalpy.hpp"
 #include "engine/solve/jam.hpp"
 #include "tests/engine/solve/jam_support.hpp"

@@ -1,9 +1,3 @@
-// Properties tested here for octahedra (N = 48), with large steps:
-// - The first training cycle is the run without cycles: its φ_J, its last state and its path have the same bits. Each
-//   cycle adds a compression and a decompression.
-// - A run that continues from any saved progress, also within a later cycle, gives the same bits.
-// - A decompression that finds no state is a cycle without values. It does not end the run.
-
 #include "engine/solve/jam.hpp"
 #include "tests/engine/solve/jam_support.hpp"
 #include "tests/engine/solve/solve_support.hpp"

@@ -1,11 +1,4 @@
-// Properties tested here for states of every solid, from random ones to converged ones, in which the energy change of a
-// step is below the rounding error:
-// - A step of Descent::advance moves the packing by last_step() times the direction, and no particle by more than the
-//   longest displacement. It increases the energy at most by the rounding error of the energy. Afterwards, packing and
-//   evaluation agree.
-// - A direction in which the energy increases is rejected, and nothing moves.
-// - The verdict is energy_change if, and only if, the relative change of the energy in the last step was smaller than
-//   requested.
+// The states range from random to converged ones, in which the energy change of a step is below the rounding error.
 
 #include "engine/solve/minimise/descent.hpp"
 

@@ -1,9 +1,4 @@
-// Properties tested here of the elimination plan, for random graphs of 0 … 120 particles from empty to complete, and
-// for packings:
-// - Every particle is eliminated once, children before parents, and every supernode except the roots has one parent.
-// - All fill-in is inside the supernodes. The reference eliminates the particles of a dense pattern one by one.
-// - For packings, fewer than half of the entries of the supernodes are zeros.
-// - The plan depends only on the pattern.
+// Reference: elimination of a dense pattern, one particle after the other.
 
 #include "engine/solve/factor/elimination.hpp"
 

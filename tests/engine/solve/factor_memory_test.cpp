@@ -1,8 +1,3 @@
-// Properties tested here, with a malloc that fails at a chosen call:
-// - If any single allocation fails during the dissection, planning or factorisation of a matrix, on one or several
-//   threads, factorise() either throws std::bad_alloc or succeeds without this memory.
-// - When memory is available again, the factor gives the same bits as a new one.
-
 #include <oneapi/tbb/global_control.h>
 
 #include <atomic>

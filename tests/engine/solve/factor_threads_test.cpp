@@ -1,13 +1,3 @@
-// Properties tested here, for graphs of random points that are large enough to be dissected and divided among threads:
-// - The solution agrees with Eigen's dense LLT.
-// - It has the same bits for 1, 2, 3 and 6 threads, and if several threads factorise at the same time.
-// - If a pivot is not positive, the factorisation always reports this: in a leaf, in a shared front, or in several
-//   places at the same time. Later factorisations give the same bits as a new factor.
-// - A plan divides subtrees and fronts among threads. Update matrices that can be needed at the same time do not
-//   overlap in memory.
-// - A dissection is a permutation. For the numbers of particles for which it is used, it has less fill-in than minimum
-//   degree. It does not depend on other dissections that run at the same time.
-
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>

@@ -1,14 +1,3 @@
-// Properties tested here, for packings in a variable cell:
-// - With pressure control and a variable cell, the states of a decompression have the requested pressures p and the
-//   stress −p·1, to 1e-6 of p. E ∝ Δφ⁶ and p ∝ Δφ⁵ give the same φ_J. In a cube, the stress of the same solids is not
-//   hydrostatic.
-// - With density control and a variable cell, the stress is hydrostatic too, and the volume follows from the density.
-// - With pressure control and a cube, a decompression from the same initial state passes through the same states as
-//   with density control. The cell remains a cube.
-// - Every minimiser finds the minimum of the enthalpy, not only Newton's method.
-// - If a run is continued from any of its steps, it gives the same bits as an uninterrupted run.
-// - If the cell would become too small for its solids, the run ends with this reason and without NaN.
-
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,8 +1,3 @@
-// Properties tested here for every solid, with random compressed packings and with almost relaxed ones:
-// - The gradient of PackingEnergy passes a check against central differences of its energy.
-// - The same check detects incorrect gradients: with an error of one per cent, without the factor 1/R of a torque, with
-//   torques about another centre, with torques of the opposite sign, and without one component of one particle.
-
 #include "tests/engine/solve/gradient_check.hpp"
 
 #include "engine/solve/minimise/minimise.hpp"

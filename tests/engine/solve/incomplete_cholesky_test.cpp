@@ -1,11 +1,3 @@
-// Properties tested here:
-// - If elimination causes no fill (a chain of particles), P = H + λ·1 up to single precision.
-// - For packings of soft contacts, the preconditioner is symmetric and positive definite, and the ratio of the largest
-//   to the smallest eigenvalue of P⁻¹(H + λ·1) is far below that of H + λ·1.
-// - A matrix with a negative pivot block is refused.
-// - For large systems, conjugate gradients give the solution of the complete factorisation, with far fewer operations.
-//   They report a direction of negative curvature, and stop at the largest number of iterations.
-
 #include "engine/solve/factor/incomplete_cholesky.hpp"
 
 #include "engine/solve/factor/definite_solver.hpp"

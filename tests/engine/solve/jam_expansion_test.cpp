@@ -1,13 +1,3 @@
-// Properties tested here for decompressions with unexpected events:
-// - A failed step is repeated with half its length, whichever limit determined the length, until no retries are left.
-// - With event_resolution, a step with a rearrangement is halved until it is short enough.
-// - A step that keeps moving without reaching an equilibrium is halved once. If this happens again, the solution branch
-//   has ended.
-// - A packing is compressed further if a complete minimisation removes most of its energy.
-// - No two steps of a decompression start from the same state with the same target density.
-// - A packing that unjams in a step is compressed again, and then decompressed on its new solution branch. Only the
-//   states of this branch give φ_J. If a run is continued from any point of this process, it gives the same bits.
-
 #include <cmath>
 #include <set>
 

@@ -1,17 +1,3 @@
-// Properties tested here for dodecahedra (N = 24) and octahedra (N = 48), with large steps and a large final_distance:
-// - The run ends jammed. Compression reaches the target energy, and decompression proceeds from equilibrium to
-//   equilibrium.
-// - Every state is in equilibrium by forces summed independently, and its step in the path agrees with a new
-//   evaluation.
-// - φ_J is below the density of every state, and between 0.6 and 0.8. Both forms of φ_J, from the fit and from a single
-//   state, are within final_distance of the last state.
-// - The same initial configuration gives the same bits. Another initial configuration gives a packing with other
-//   contacts.
-// - A stop request, an unreachable target or too few steps end the run. The results so far are returned.
-// - With the paper's stopping rule on the energy, states at which the rule stopped are kept, even if they are not in
-//   equilibrium.
-// - If the target applies to the unrelaxed energy, the compression ends nearer to jamming.
-
 #include "engine/solve/jam.hpp"
 
 #include <set>

@@ -1,14 +1,3 @@
-// Properties tested here, for synthetic states E/N = c·(φ − φ_J)^x with random c, φ_J and spacing:
-// - For x = 6, φ_J from the fit and from a single state are exact within rounding errors. So is the free exponent, 6.
-//   The standard error of the fit is of the order of rounding errors.
-// - For x = 5.5 the free exponent is 5.5.
-// - If the densities have random errors, the 95 % confidence interval contains φ_J with this probability, and the
-//   standard error is the standard deviation of φ_J.
-// - The states of the fit are those inside the window above the resulting φ_J. If fewer than two are inside, they are
-//   the two nearest states.
-// - The order of the states is irrelevant. States without energy are ignored.
-// - Fewer than two states give no result. Two states give the line through them, without an error.
-
 #include "engine/solve/jamming_point.hpp"
 
 #include <algorithm>

@@ -1,12 +1,4 @@
-// Properties tested here, for random sparse matrices:
-// - In a small system, where the space is nearly the whole space, the step is −(|M| + λ)⁻¹ g for every λ, also if M is
-//   indefinite, and the predicted decrease is that of the quadratic model. The oracle is a dense eigenvalue
-//   decomposition.
-// - In larger systems, the decrease in a small space is at least 95 % of the decrease in the whole space.
-// - The step always leads downhill, and it becomes shorter as λ grows. It is never longer than allowed.
-// - KrylovModels finds a preconditioner for indefinite matrices, and reports their negative eigenvalues.
-// - If soft modes are outside the largest space, the next factorisation is complete and the step is exact. After an
-//   indefinite matrix, factorisations are incomplete again.
+// Reference: a dense eigenvalue decomposition.
 
 #include "engine/solve/multipliers/krylov_model.hpp"
 

@@ -1,14 +1,3 @@
-// Properties tested here, for random smooth functions of one variable (quadratics, quartics, cosine mixtures over a
-// bowl, one-sided powers max(0, x)^2 and ^6 as for overlaps), with starts and first steps over six decades:
-// - The point found satisfies the strong Wolfe conditions for any curvature parameter.
-// - This point was evaluated, and its value and slope are returned. The evaluations are counted correctly.
-// - No step longer than the longest allowed one is tried. If the function still decreases there, this step is the
-//   result.
-// - Trials where the value or the slope is not finite are handled, on both sides of the minimum.
-// - The value at the point found is at most the value at the start plus its rounding error. This point is never the
-//   start itself.
-// - If the function has no lower point, the result is found = false and the start.
-
 #include "engine/solve/minimise/line_search.hpp"
 
 #include <algorithm>

@@ -1,7 +1,3 @@
-// Property tested here: the solution with a low-rank update is that of the dense factors of the sum, as far as the
-// condition number allows. The matrices are shifted Hessians of random packings. The updates have 0 … 12 random columns
-// that are as sparse as those of pairs, with stiffnesses from a thousandth to a thousand times that of the matrix.
-
 #include "engine/solve/factor/low_rank_update.hpp"
 
 #include <Eigen/Cholesky>

@@ -1,12 +1,3 @@
-// Properties tested here, for each method and solid, from random packings compressed far beyond jamming:
-// - The requested residual is reached, the energy decreases, the cell does not change, and orientations remain unit
-//   quaternions.
-// - The returned state is in equilibrium by forces and torques summed independently from its contacts.
-// - The summary agrees with a new evaluation of that state, and counts every evaluation.
-// - 1 thread and 2 threads give the same bits.
-// - For octahedra near jamming, Newton's method reaches a residual of 1e-8. Conjugate gradients do not reach it with
-//   ten times as many evaluations.
-
 #include "engine/solve/minimise/minimise.hpp"
 
 #include <oneapi/tbb/global_control.h>

@@ -1,12 +1,4 @@
-// Properties tested here, for strain steps between equilibria of every solid of the paper, Δφ from 0.1 to 0.01:
-// - follow_equilibrium() ends in an equilibrium of the energy, by forces summed independently, at the requested
-//   density. The energy is the one that Newton's method finds, unless one of the two methods left the solution branch.
-//   In total it computes fewer Hessians than Newton's method; a small step needs only a few.
-// - relax_to_equilibrium() finds an equilibrium from a strained state for which no multipliers are known.
-// - A packing strained below jamming is reported as unjammed.
-// - The method stops at the largest number of evaluations, and on request. One and two threads give the same bits.
-// - Local relaxation moves only the flagged particles, and lowers the envelope.
-// - Near an equilibrium, lifted steps (Newton steps in positions and multipliers together) converge quadratically.
+// Equilibria are checked by forces and torques that are summed independently from the contacts.
 
 #include "engine/solve/multipliers/multipliers.hpp"
 

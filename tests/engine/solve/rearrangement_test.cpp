@@ -1,11 +1,3 @@
-// Properties tested here, for constructed paths:
-// - A step contains a rearrangement if the energy after it is less than half of the value expected without one, or if
-//   the solution branch ended.
-// - A step counts if it leads from one equilibrium to the next, or to the end of a branch. Steps of the compression,
-//   the first state, failed steps and recompressions do not count.
-// - Means are over the steps with a rearrangement that led to another equilibrium. If there are none, the means are
-//   absent.
-
 #include "engine/solve/rearrangement.hpp"
 
 #include <gtest/gtest.h>

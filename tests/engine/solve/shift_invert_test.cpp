@@ -1,9 +1,3 @@
-// Properties tested here:
-// - For shifts below, between and above the eigenvalues of a Hessian, the operator solves (H − σ·1) y = x. It reports
-//   correctly whether this matrix is positive definite, and how many eigenvalues are below σ.
-// - A singular shifted matrix and a matrix with NaN are rejected.
-// - Spectra's shift-invert solver with this operator finds the same lowest modes of an equilibrium as the dense solver.
-
 #include "engine/solve/factor/shift_invert.hpp"
 
 #include <Spectra/SymEigsShiftSolver.h>

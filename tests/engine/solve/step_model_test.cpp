@@ -1,16 +1,3 @@
-// Properties tested here:
-// - If no pair of particles is about to touch, the step is Newton's step −(H + μ)⁻¹ g, where the shift μ includes the
-//   tilt terms. The predicted decrease is that of E + g·s + ½ s·H s.
-// - A face that is pushed across a gap stops where it meets the other face. For three cubes in a row, the step is that
-//   of one-dimensional springs, for any initial estimate. Without the pairs that are about to touch, the face would not
-//   stop.
-// - A pair that is found in a later round gives the same step as a pair in the initial estimate.
-// - The pairs that touch after the step are returned, as the initial estimate for the next step.
-// - If the model anticipates a contact, the predicted decrease agrees with the energy. Otherwise it is too large for
-//   the same state.
-// - No step is longer than the longest displacement. An indefinite matrix is rejected until the shift makes it positive
-//   definite.
-
 #include "engine/solve/minimise/step_model.hpp"
 
 #include <gtest/gtest.h>

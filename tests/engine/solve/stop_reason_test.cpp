@@ -1,13 +1,3 @@
-// Properties tested here, for each method:
-// - A default summary has the reason not_called, and every reason has its own name.
-// - budget: with a limit of a few evaluations, the method stops at the best state found, after at most one more line
-//   search or shift.
-// - unjammed: a dilute packing ends with negligible energy, and does not count as an equilibrium.
-// - not_finite: a packing whose orientation contains NaN is returned unchanged.
-// - interrupted: if a stop was requested before the call, the packing is returned unchanged.
-// - energy_change: the paper's rule stops conjugate gradients with this reason, and the state does not count as an
-//   equilibrium. With a larger tolerance the rule stops earlier.
-
 #include <limits>
 #include <set>
 

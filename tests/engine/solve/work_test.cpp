@@ -1,17 +1,3 @@
-// Properties tested here of the counters in records:
-// - Conjugate gradients and L-BFGS compute no Hessian. FIRE computes one, for its unit of time. None of the three
-//   factorises a matrix.
-// - Newton's method computes at most one Hessian per evaluation and factorises at most once per round of its step
-//   model; near jamming it factorises less often, because later rounds update the factor.
-// - If the initial state is an equilibrium, the minimiser computes no Hessian, no factorisation and no step.
-//   Compression computes no Hessian; decompression does.
-// - Evaluations in double-double are used only if the residual floor of doubles is above the requested residual.
-// - The totals of a run are the sums over its steps.
-// - The neighbour list contains all pairs whose circumspheres overlap, and fewer than half as many other pairs. In a
-//   repeated evaluation, every listed pair is out of reach, rejected by its separating axis, or touching. overlap() is
-//   therefore not called for separated pairs.
-// - The number of computed modes is the requested one.
-
 #include <gtest/gtest.h>
 
 #include "engine/packing/neighbours.hpp"

@@ -1,12 +1,4 @@
-// Properties tested here:
-// - The backbone is the packing without its near-rattlers. If a jammed packing has none, the backbone is the whole
-//   packing, with the same bulk modulus.
-// - Small solids that float in its voids, alone or in pairs, are removed, and the rest is unchanged to the bit.
-// - In random packings of every solid, from dilute to dense, the remaining particles agree with an independent method.
-//   In each round, it counts contacts and uses all eigenvectors of a dense matrix that is summed pair by pair. Some
-//   packings need several rounds.
-// - There is no near-rattler among the remaining particles. Remaining and removed particles together are all particles.
-// - Contacts within a part are the contacts of that part. An empty packing has an empty backbone.
+// Reference: rounds that count contacts and use all eigenvectors of a dense matrix, summed pair by pair.
 
 #include "engine/vibration/backbone.hpp"
 

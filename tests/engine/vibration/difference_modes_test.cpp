@@ -1,11 +1,3 @@
-// Properties tested here:
-// - For steps below the depth of contacts the eigenvalues by differences agree with those of the analytic D: for
-//   packings of every solid, for jammed octahedra, and for cubes of two sizes, which have different masses.
-// - Three eigenvalues are 0 within rounding errors, even for small steps, which have larger rounding errors.
-// - If the step is much larger than the depth of flat contacts, some eigenvalues are negative although no mode is.
-//   Larger steps give more of them.
-// - A step that is not positive is rejected.
-
 #include "engine/vibration/difference_modes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,15 +1,3 @@
-// Properties tested here:
-// - Sparse and dense forms multiply like the blocks. norm_bound is an upper bound of every eigenvalue.
-// - Translations are orthonormal null vectors within rounding errors, in equilibrium or not. The error is at most
-//   rounding_bound.
-// - Central differences of the gradient agree with the analytic matrix, including the rotations of a particle. In
-//   jammed octahedra this requires a step h below the depth of the flat contacts. The agreement improves as h
-//   decreases.
-// - If h is larger than this depth, the differences give negative modes that the packing does not have.
-// - The modes of boxes solve the eigenvalue problem with the moments of inertia from textbooks. For spherical tops, D
-//   is the Hessian.
-// - u·Du for a random u is the curvature of the energy along u.
-
 #include "engine/vibration/dynamical_matrix.hpp"
 
 #include <gtest/gtest.h>

@@ -1,13 +1,3 @@
-// Properties tested here:
-// - The participation ratio is 1/N if one particle moves, 1 if all move equally, and m/N if m particles move equally.
-//   It does not depend on the scale of the mode.
-// - Mean frequencies are means of √λ, and undefined if some λ is zero or negative.
-// - The amplitude shares of a set of particles and of all others sum to 1. For all modes together, the share of a set
-//   is its share of the particles.
-// - A density of states integrates to the fraction of modes that have a frequency. Its integral up to the edge of a bin
-//   counts the modes below this edge, and increases to 1. It is undefined if there are fewer than two different
-//   frequencies.
-
 #include "engine/vibration/mode_statistics.hpp"
 
 #include <gtest/gtest.h>

@@ -1,12 +1,3 @@
-// Properties tested here, for jammed octahedra (N = 48) and tetrahedra (N = 64):
-// - In every state, K from the Hessian is φ dp/dφ from neighbouring minimised states. It is smaller than the affine K.
-// - The affine tensor is the second difference of the energy of the contacts at explicitly strained displacements.
-// - The relaxed tensor is the affine tensor minus the part that the particles relax. A dense solver computes this part
-//   from the forces that strain causes, which also come from differences.
-// - The moduli of isotropic tensors are correct, also under pressure. Shear moduli do not depend on the axes.
-// - The response is undefined if particles with contacts are not constrained, or if there are no contacts at all. It is
-//   defined if only some particles have no contacts.
-
 #include "engine/vibration/moduli.hpp"
 
 #include <gtest/gtest.h>

@@ -1,11 +1,3 @@
-// Properties tested here:
-// - Octahedra on a cubic lattice with equal orientations are in equilibrium by symmetry, at a saddle with many negative
-//   modes. Relaxation along a negative mode finds a minimum with a lower energy. The same initial state gives the same
-//   bits.
-// - The bits of a minimum do not change.
-// - With max_descents = 0, the state is reported as a saddle. If the packing unjams or the run is interrupted, the
-//   result is lost_balance.
-
 #include "engine/vibration/relax_to_minimum.hpp"
 
 #include <gtest/gtest.h>

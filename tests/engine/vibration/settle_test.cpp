@@ -1,8 +1,3 @@
-// Properties tested here for the states of a decompression, of which one is a saddle:
-// - The saddle is replaced by a minimum with lower energy at the same density. Its step gets the energy and pressure of
-//   the new state and the number of saddles that were relaxed. φ_J is fitted again.
-// - Minima and their steps keep their bits.
-
 #include "engine/vibration/settle.hpp"
 
 #include <gtest/gtest.h>

@@ -1,12 +1,4 @@
-// Properties tested here, for jammed octahedra (N = 48), tetrahedra (N = 64) and icosahedra (N = 32), and for cubes:
-// - The lowest and highest eigenvalues from the Lanczos method agree with the dense solver to 1e-8 (to 1e-6 for the
-//   softest modes of tetrahedra). The errors are at most relative_error.
-// - Vectors are orthonormal, orthogonal to translations, and satisfy D u = λ u. The same matrix gives the same bits.
-// - The lowest modes of a matrix with many negative modes are found.
-// - The dense solver is used if more modes are requested than the Lanczos method can compute, if there are no contacts,
-//   and if there are too few restarts. Too many particles for the dense solver, and NaN, are reported as failures.
-// - The modes of the dense solver are complete: together they give D again. λ = u·Du is the curvature of the energy
-//   along u.
+// Reference: a dense solver.
 
 #include "engine/vibration/spectrum.hpp"
 

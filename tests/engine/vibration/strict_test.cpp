@@ -1,15 +1,3 @@
-// Properties tested here, for jammed octahedra and dodecahedra in a cube and in a variable cell:
-// - The bordered Hessian, which contains particles and strains, has as many zero and negative modes as a dense solver
-//   finds. So has its factor with fixed translations.
-// - In the softest strain, the particles have relaxed, and its stiffness is the smallest eigenvalue of the Schur
-//   complement.
-// - The Schur complement of the six strains is the relaxed elastic tensor, apart from the pressure.
-// - The states of a variable cell have hydrostatic stress and are strictly jammed: particles and strains together have
-//   three zero modes and no negative mode.
-// - If the cell of a packing in a cube is relaxed, the result is such a state nearby. If it is relaxed again, nothing
-//   changes.
-// - A packing that is stable only in its fixed cell is distinguished from one that is strictly jammed.
-
 #include "engine/vibration/strict.hpp"
 
 #include <gtest/gtest.h>

@@ -1,11 +1,3 @@
-// Properties tested here through the executable:
-// - With --messages json every line on stderr is a JSON object with "kind" and "text".
-// - Errors of a manifest have the members file, pointer, problem, allowed and suggestion, and the text that people
-//   read. This text lists the allowed keys only if there is no suggestion.
-// - Progress counts from 0 to the number of replicates. Standard output and files are the same as without the option.
-// - --quiet does not suppress errors.
-// - The manifest "-" is standard input, and its paths start from the current directory.
-
 #include <gtest/gtest.h>
 
 #include <sstream>

@@ -1,18 +1,3 @@
-// Properties tested here through the executable:
-// - For every invalid manifest of bad_manifests(), `run` and `validate` exit with 65 and print one line that names the
-//   file. Nothing is written.
-// - `validate` reads the files of a start, also if the manifest states their digests.
-// - If there are several errors, each has a line with the file. Warnings are printed in addition to OK.
-// - Usage errors, and paths that cannot be read or written, end with exit 2 and one error. Nothing is written.
-// - A manifest with very many keys does not block the program.
-// - A measure that packings at zero pressure cannot have is not added to their records.
-// - For an unknown command or option, the message suggests the most similar one. For a missing argument or value, or
-//   one that is too many, it names this argument or value.
-// - A missing or empty directory gives the same error in every command.
-// - A dry run uses the singular for one, and prints a time of zero as about 0 s.
-// - Help and version are printed on standard output with exit 0.
-// - Colour is used only if it is requested.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,8 +1,3 @@
-// Properties tested here for every command:
-// - If standard output is full or closed, an error is reported and the exit code is 1.
-// - If standard error is closed, no message gets into a result file.
-// - If the value of an option must be a number and is not one, it is rejected.
-
 #include <gtest/gtest.h>
 
 #include "tests/tasks/support/support.hpp"

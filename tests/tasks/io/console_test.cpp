@@ -1,9 +1,3 @@
-// Properties tested here on a pseudo-terminal:
-// - A bar of constant length counts the replicates of each round from 0 to the number in this round, whatever rounds
-//   came before.
-// - No line is wider than the terminal, because it could not be erased again.
-// - The time left is shown if some work is done and some is left. When the round ends, the bar disappears.
-
 #include "tasks/io/console.hpp"
 
 #include <gtest/gtest.h>

@@ -1,13 +1,3 @@
-// Properties tested here:
-// - A file is replaced completely or not at all, and a failed write leaves nothing behind. If several writers create a
-//   new file, exactly one of them succeeds, even on a file system without hard links and renames that do not replace.
-// - Output to a path that a user names follows links and pipes, and keeps the mode of an existing file. A link of
-//   another user in a folder that everyone can write to is refused.
-// - A result must be a regular file: a pipe or an endless device is detected at once. A user's input file may be a
-//   pipe.
-// - A process counts as running until it ends. A later process with the same number is not confused with it.
-// - Printed texts cannot control the terminal.
-
 #include "tasks/io/file.hpp"
 
 #include <fcntl.h>

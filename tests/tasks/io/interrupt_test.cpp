@@ -1,6 +1,4 @@
-// Properties tested here in child processes. A process that reacts to the stop request ends in its own way. A process
-// that does not react is ended with exit code 75 after a waiting time, or immediately by a second signal. Without a
-// signal, or with a signal that was ignored before, nothing happens.
+// Signals are sent to child processes.
 
 #include "tasks/io/interrupt.hpp"
 

@@ -1,10 +1,3 @@
-// Properties tested here:
-// - Every double is read with the same bits as it was written. Indented text gives the same value as compact text.
-// - A number that JSON cannot represent is written as null with its reason.
-// - A global locale with another decimal point changes neither reading nor writing.
-// - Positions of syntax errors are correct, wherever the text is cut or changed.
-// - A name is suggested only if it is similar to the unknown one; the most similar one is chosen.
-
 #include "tasks/io/json.hpp"
 #include "tasks/io/parse.hpp"
 

@@ -1,8 +1,3 @@
-// These tests prove:
-// - the memory left is that of the narrowest of all control groups around a process, in versions 1 and 2;
-// - groups without a limit, and groups that are not mounted, set no limit;
-// - an exceeded limit leaves a negative number, which available_memory() replaces by 0.
-
 #include "tasks/io/memory.hpp"
 
 #include <gtest/gtest.h>

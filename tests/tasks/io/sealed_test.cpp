@@ -1,9 +1,3 @@
-// Properties tested here:
-// - A sealed text, which contains its checksum, gives back the document. A text with one byte changed, removed or
-//   added, or a truncated text, is rejected.
-// - A packing is read from JSON with the same bits as it was written. An invalid packing is rejected with the place of
-//   the error.
-
 #include "tasks/io/sealed.hpp"
 
 #include <gtest/gtest.h>

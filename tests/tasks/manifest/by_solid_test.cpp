@@ -1,11 +1,3 @@
-// Properties tested here:
-// - Parameters in /protocol/by_solid reach only the replicates of their solid. The canonical form keeps them.
-// - Without them and without cubes, the canonical form has no such key, so earlier digests stay.
-// - Cubes have a larger max_density by default, which is above the density of a crystal with the target energy. A given
-//   or swept max_density takes precedence. In a small cell, the usual limit stays.
-// - Compression relaxes tetrahedra with more evaluations by default. A given or swept value takes precedence.
-// - Unknown solids, unknown and swept parameters, and values that contradict each other are refused.
-
 #include "tasks/manifest/by_solid.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,3 @@
-// Properties tested here:
-// - A manifest without cohesion has no cohesion in its canonical form and in its specifications, so digests of earlier
-//   results stay. The same is true for the strength 0.
-// - Cohesion can be set and swept under its names. The canonical form is read as the same manifest.
-// - Settings that have no effect cause a warning. Cohesion of a single solid is an error.
-
 #include <gtest/gtest.h>
 
 #include "tasks/io/input_error.hpp"

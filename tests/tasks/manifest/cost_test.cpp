@@ -1,9 +1,3 @@
-// Properties tested here:
-// - For 20 studies of the examples, the estimated CPU time is within a factor of 1.5 of the measured one.
-// - More of everything that takes time costs more: particles, distance, compression, measures, shear, a free cell,
-//   training cycles, cohesion.
-// - More packings and longer records take more disk space.
-
 #include "tasks/manifest/cost.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,3 @@
-// Properties tested here:
-// - For two manifests with different digests, the keys that differ are named with both values, up to a maximum number.
-// - For manifests with the same digest there is no difference.
-
 #include <gtest/gtest.h>
 
 #include "tasks/manifest/manifest.hpp"

@@ -1,12 +1,3 @@
-// Properties tested here:
-// - Every invalid manifest of bad_manifests() is rejected with the file, the JSON pointer and the expected text.
-// - Missing keys have the default values of the engine's structs.
-// - Every parameter can be set and swept at both ends of its range, and not beyond them.
-// - The canonical form is read as the same manifest, and does not depend on the order of lists and keys.
-// - The digest changes with every parameter. It does not change with `replicates`, `exclude` and `base`.
-// - The excluded flags are the given ones in a fixed order, or the default flags.
-// - The base is the given one with sorted keys and canonical values, or none.
-
 #include "tasks/manifest/manifest.hpp"
 
 #include <fmt/format.h>

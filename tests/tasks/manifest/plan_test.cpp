@@ -1,12 +1,3 @@
-// Properties tested here:
-// - The plan is the product of the swept lists in a fixed order, with each replicate once. The name of a replicate is
-//   unique, states what varies, is a valid file name, and leads back to the replicate.
-// - The random numbers of a replicate do not depend on the other values of the sweep, or on its place in the sweep.
-// - Replicates with the same number have the same initial configuration at every swept value of the protocol and the
-//   minimiser: the same poses, in a cell of the initial density.
-// - Random numbers differ if the number of the replicate, the solid, N, the seed or the purpose differs, and depend on
-//   nothing else.
-
 #include "tasks/manifest/plan.hpp"
 
 #include <gtest/gtest.h>

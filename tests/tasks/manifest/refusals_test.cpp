@@ -1,11 +1,3 @@
-// Properties tested here:
-// - All errors of a manifest are reported at once, one per line, in the order of the document. Errors that are only
-//   consequences of other errors are not reported.
-// - Two errors in different places give the same two lines as each error alone.
-// - Conditions between several values are checked only if each value is valid.
-// - Comments are reported as such, with line and column. Inside a string they are not comments.
-// - The max_density that the message recommends for too few particles is accepted, and the next larger one is not.
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

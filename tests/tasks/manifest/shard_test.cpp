@@ -1,9 +1,3 @@
-// Properties tested here:
-// - Only texts of the form "I/N" are read as a shard.
-// - The shards of a plan are disjoint, and together they are the whole plan.
-// - A task of a Slurm array finds its shard from its position in the array, whatever the indices are. Contradictory
-//   variables are rejected.
-
 #include "tasks/manifest/shard.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,3 @@
-// Properties tested here:
-// - A setting that is known to give no good results causes a warning that names the key to change.
-// - The defaults and the examples cause no warning.
-// - A key without effect causes a warning, and the same key with an effect does not.
-
 #include "tasks/manifest/warnings.hpp"
 
 #include <gtest/gtest.h>

@@ -1,11 +1,3 @@
-// Properties tested here for the measure `backbone`:
-// - For a jammed packing without near-rattlers, its values are those of contacts, modes, moduli and rigidity for the
-//   whole packing.
-// - If the removed particles carried force, the rest is reported as unbalanced and has no bulk modulus. Its rank is
-//   that of all singular values of its rows, although its forces are not a state of self-stress.
-// - Small solids that float in the voids are counted and named, and change nothing else, while modes and moduli of the
-//   whole packing then have no value. In a mixture, contacts keep the classes that they have in the whole packing.
-
 #include <gtest/gtest.h>
 
 #include "engine/rigidity/rigidity.hpp"

@@ -1,11 +1,3 @@
-// Properties tested here, for octahedra with cohesion:
-// - The record of a packing at zero pressure has phi_0 instead of phi_j, and conforms to the schema. Tables read it. It
-//   is not flagged. Its measures can be computed again from its packing, with the same values.
-// - Grown contacts and contacts under tension are those of the engine. A packing without cohesion has none of them.
-// - The training cycles of a packing without cohesion are in its record, and can be read from it. Without the packings
-//   of the cycles, the record states why their contact numbers are unknown.
-// - The clusters of the measure percolation are those of the measure clusters. Its random bonds are as many.
-
 #include <gtest/gtest.h>
 
 #include "engine/analysis/cohesive_contacts.hpp"

@@ -1,10 +1,3 @@
-// Properties tested here for the measure `difference_modes`:
-// - The exact count is that of all 6N eigenvalues of the analytic matrix, also at a saddle, which is not relaxed. The
-//   counts by differences are those of difference_hessian() in doubles with a dense solver, for every step. Shares are
-//   relative to 6N.
-// - This measure does not need minima, unlike `modes`.
-// - If there are too many particles for a dense matrix, there is no value but a reason.
-
 #include <gtest/gtest.h>
 
 #include "engine/solve/factor/dense.hpp"

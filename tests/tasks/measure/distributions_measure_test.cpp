@@ -1,11 +1,3 @@
-// Properties tested here:
-// - Partial contact numbers are those of a count over all contacts. Their sum over the other kind is the contact number
-//   of a kind. A packing of one kind has none.
-// - The mixing is 0 if kinds are apart, and 1 on average if they are distributed at random.
-// - The histogram of angles has the angles of the record. Angles of zero are below the first bin.
-// - Forces in the record are in units of their mean. Each force is counted in its bin, or below the first bin.
-// - g(r) in the record is that of the engine, with one more edge than values.
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

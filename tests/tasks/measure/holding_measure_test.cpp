@@ -1,13 +1,3 @@
-// Properties tested here for the measures `prestress`, `gaps` and `rigidity`, in states of jammed octahedra:
-// - The number of constraints decreases with the threshold, and C_s is the one for the threshold 10. The missing ranks
-//   are those of the same rows.
-// - The shares of a mode sum to 1 and are in [0, 1], except for a negative share of prestress. With a higher threshold,
-//   prestress stiffens more modes; with a smaller share of normals, fewer modes are counted.
-// - The contact classes together have all contacts. Their stiff tilts and the normals are all constraints of C_s.
-// - Larger cut-offs give more constraints, and no smaller rank.
-// - The bins contain every contact and every gap. Nearer to jamming, fewer pairs are closer than Δφ.
-// - For packings without φ_J, the reason takes the place of the value.
-
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,19 +1,3 @@
-// Properties tested here for all measures:
-// - For a jammed packing, every measure has an entry for each state, the record conforms to its schema, and every
-//   quantity of the tables has a value or a reason.
-// - The numbers of zero, negative and positive modes are those that a dense solver finds among all 6N eigenvalues.
-// - The constraints are Z·N/2 and C·N/2, as counted from the contact classes. Rank, states of self-stress and floppy
-//   motions are those of all singular values of the rows.
-// - The identity C = 12 − 6/N − 2m + 2S/N holds in every state, for the classes by fits and by troughs, and for any
-//   other cut-offs. Here m is the missing rank per particle, and S the number of states of self-stress.
-// - The recorded histogram is that of the alignment angles, and is read back. The numbers by troughs are those of
-//   contacts that are classified with the recorded cut-offs.
-// - In records without troughs and histograms, these quantities have no value.
-// - A second evaluation gives the same bits.
-// - States without contacts, with one contact, with one or three particles, and a crystal of cubes give records that
-//   conform to the schema. They have a reason for every null, and no NaN.
-// - The parts that different measures wrote to a record, with their reasons, can be separated.
-
 #include "tasks/measure/measure.hpp"
 #include "tasks/records/summary.hpp"
 

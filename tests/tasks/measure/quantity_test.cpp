@@ -1,9 +1,3 @@
-// Properties tested here for the list of quantities:
-// - Names and places are unique, places are JSON pointers, and no text is empty.
-// - φ_J comes first. φ_J and the quantities of rearrangements belong to no measure; every other quantity belongs to the
-//   measure that defines it. The quantities of a group are next to each other, and the main group is the first.
-// - A quantity is written to the place that it states. Integers are written as integers, and null has a reason.
-
 #include "tasks/measure/quantity.hpp"
 
 #include <gtest/gtest.h>

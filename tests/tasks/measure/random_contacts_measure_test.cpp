@@ -1,9 +1,3 @@
-// Properties tested here for the comparison of small angles with random contacts that include contacts of two edges:
-// - The range of small angles ends where a tenth of the random contacts are. This is computed from the solids of every
-//   contact, for one solid, for one shape in two sizes, and for two shapes.
-// - Angles in this range are counted; the expected number is a tenth of all. With edge contacts, the range differs from
-//   the range for vertices only.
-
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,7 +1,3 @@
-// These tests prove:
-// - 32 truncated icosidodecahedra (62 faces, 180 edges, 120 vertices), defined by their vertices, are jammed, their
-//   contacts are classified, and their packings and contacts are exported.
-
 #include <gtest/gtest.h>
 
 #include <array>

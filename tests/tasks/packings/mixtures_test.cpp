@@ -1,12 +1,3 @@
-// Properties tested here:
-// - A mixture is an entry of a sweep. Its canonical form is read as the same manifest, and contains the vertices of
-//   user-defined solids.
-// - An invalid mixture is rejected at its place: fractions that do not sum to 1, invalid sizes, kinds without
-//   particles, sizes for which the cell would be too small, names that are already used.
-// - Packings of mixtures are read with the same bits. The checkpoint of another mixture is not accepted.
-// - Runs of mixtures are recorded, averaged for each kind, drawn and exported with their solids, for any number of
-//   threads.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,8 +1,4 @@
-// These tests prove, beside tests/polyhedra/corpus_test.py, which has about 300 files:
-// - parts of a file that do not belong to the solid are noted;
-// - a surface that is open is never replaced by its hull without a request;
-// - corners that triangles share only approximately are refused, and the stated value of `merge` welds them;
-// - limits are checked before the work: the rest of a file that is too large is not read.
+// tests/polyhedra/corpus_test.py has about 300 more files.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,3 @@
-// These tests prove:
-// - the keys `merge`, `hull` and `corners` repair a solid from a file or from vertices, and nothing is repaired without
-//   them; a box and other values are refused at their place;
-// - vertices with few digits give a warning that names two faces and the value of `merge` that joins them; with this
-//   value the solid has its published features, and there is no warning;
-// - the copy of a manifest contains the repaired vertices, and gives the same solid to the last bit;
-// - `validate` and `run --dry-run` print a line for each user-defined solid.
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,11 +1,3 @@
-// Properties tested here:
-// - A solid is defined as a box, by vertices or by a file, and is swept by its name, like the named solids of isojam.
-// - OFF and STL files, text and binary, give the same solid. Their paths are relative to the manifest.
-// - Invalid solids are rejected at their places, all at once, without consequences of these errors.
-// - The canonical form contains the vertices of swept solids, needs no file, and is read as the same manifest. The
-//   digest changes with the vertices.
-// - Packings and records of such solids are read with the same bits, and name their solids.
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

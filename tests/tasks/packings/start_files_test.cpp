@@ -1,10 +1,4 @@
-// These tests prove, beside tests/polyhedra/packings_test.py, which has about 120 files:
-// - GSD files without shapes give the packing that they describe;
-// - a type with another shape than a convex polyhedron, and a number that is not finite in any place, are refused;
-// - a packing of such a low density that the first strain step moves particles into each other is refused;
-// - a packing with aligned particles, and a shape with other points than corners, give a warning;
-// - the work grows with the number of types plus the number of particles; paths of pipes, devices and directories are
-//   refused without reading.
+// tests/polyhedra/packings_test.py has about 110 more files.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,13 +1,3 @@
-// Properties tested here:
-// - A GSD file of another program gives the intended packing in single precision, also if it uses other units, a
-//   rotated or shifted solid, another order of vertices, or a mixture. A file in extended XYZ format gives it to the
-//   last digits. A file written by Python's gsd is read too.
-// - Files that are truncated, or contain other particles or none, are rejected, and none of their data is used
-//   unchecked.
-// - Replicates can start from packings instead of a random configuration. isojam's own packings are used bit for bit,
-//   so a decompression continues from the stored state towards jamming. The record states the file.
-// - If a file cannot be used, the manifest is rejected at the place of the file before anything runs.
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

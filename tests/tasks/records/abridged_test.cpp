@@ -1,11 +1,3 @@
-// Properties tested here:
-// - The quick reader of records keeps every value that tables use, with the same bits and types as a JSON parser. It
-//   omits the path and the lists inside states, except histograms of angles.
-// - It computes the result digest of the whole record.
-// - Tables of the nearest states are the same if all other states are dropped.
-// - It rejects every changed byte, every truncation, and everything that it does not read itself. Such a record is then
-//   read in the usual way.
-
 #include "tasks/records/abridged.hpp"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,3 @@
-// Properties tested here:
-// - A run that resumes from any of its checkpoints ends with the record of the run that never stopped, except for
-//   timing. This is also true if steps failed and were repeated, in a variable cell, and if a run had ended but had no
-//   record yet.
-// - A checkpoint of another replicate, manifest or build, or with states of another packing, is rejected with the place
-//   of the error. A run with values that are not finite writes no checkpoint.
-
 #include "tasks/records/checkpoint.hpp"
 
 #include <gtest/gtest.h>

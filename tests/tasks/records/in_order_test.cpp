@@ -1,9 +1,3 @@
-// Properties tested here:
-// - Values are used in the order of their indices, each once and on the calling thread, whichever are made first.
-// - Few values wait in memory: at most four per thread are made before they are used.
-// - If several values fail, the exception of the lowest index is thrown after all earlier values were used. An
-//   exception of `use` also ends the call. Afterwards, nothing is made or used.
-
 #include "tasks/records/in_order.hpp"
 
 #include <gtest/gtest.h>

@@ -1,14 +1,3 @@
-// Properties tested here for files that are complete but do not belong where they are:
-// - A packing or path of another replicate, manifest or run is not accepted for a record by any reader.
-// - A record must have the result digest that it states, and must be of the replicate in its file name.
-// - The error of a damaged or missing file states the remedy, except in the warning of a run.
-// - Records of another manifest than that of the directory are reported and left out of the table. Different builds are
-//   reported.
-// - A pipe, a link to an endless device, and a million nested lists are detected as damage at once.
-// - A record of a resource failure is recomputed.
-// - If several runs with different manifests start at the same time in a fresh directory, one gets it. The others are
-//   rejected with the keys that differ.
-
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

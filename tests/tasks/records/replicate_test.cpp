@@ -1,9 +1,3 @@
-// Properties tested here with real packings of 24 dodecahedra:
-// - If a run stops at max_density or max_steps, the record and the message name the key that sets the limit.
-// - Messages of failures state a remedy that fits the last step.
-// - If φ_J was fitted to states outside the fit window, the replicate is flagged; otherwise it is not.
-// - Exactly these settings cause a warning before the run.
-
 #include "tasks/records/replicate.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,3 @@
-// Properties tested here:
-// - From a record and the packings of its path, the result is restored, and gives the same record again. This is also
-//   true if a branch was lost, a packing rearranged, a residual was infinite, or saddles were relaxed.
-// - If a measure has no value, in one state or in all, the restored result has the reason from the record.
-// - If the restored result does not give the same record, no measure is added and the record does not change.
-
 #include "tasks/records/restored.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,3 @@
-// Properties tested here with synthetic records, which contain the angles of several states:
-// - With a hundred thousand records, `aggregate` and `status` each need less than 100 MB of memory. The CPU time is
-//   printed. This test takes minutes and 4 GB of disk, so it runs only with --gtest_also_run_disabled_tests.
-// - The memory of a table grows by less than a kilobyte for each record.
-// - `aggregate` gives the same table whichever half of the records it finds first.
-
 #include <gtest/gtest.h>
 #include <malloc.h>
 #include <sys/resource.h>

@@ -1,12 +1,3 @@
-// Properties tested here:
-// - A written record is found again. A record that is truncated anywhere, or belongs to another replicate, is reported
-//   and not used.
-// - A record without its packing is not used. A packing keeps every bit of its state, including the low parts, and
-//   conforms to its schema: with one solid or a mixture, in a cube or in another cell.
-// - A directory of another manifest is rejected and not changed, whichever file shows that it belongs to another one.
-// - Later, more replicates can be requested. Fewer replicates do not make the stored plan smaller.
-// - Temporary files of a killed writer are not used as results.
-
 #include "tasks/records/store.hpp"
 #include "tasks/io/file.hpp"
 #include "tasks/records/summary.hpp"

@@ -1,21 +1,3 @@
-// Properties tested here through the executable with real packings:
-// - Measures that are added later give the records of a run with all measures from the start: the same result digest,
-//   and everything except timing and provenance. This is true if they are added together or one after another, with one
-//   thread or two, and if saddles had to be relaxed first. Packings and paths that did not change keep their bytes.
-// - The record states the added measures, the build, and the earlier digests. Its packings and paths are still
-//   accepted. The directory conforms to the schemas and has no damage. Neither the extended nor the original manifest
-//   runs anything again.
-// - After a kill, every record is complete, either old or new. `status` counts the records that lack a measure, and the
-//   same command continues. If the path of a replicate was written by a process that was killed before it wrote the
-//   record, `run` recomputes the replicate, and also computes measures that its manifest does not request.
-// - The command needs the directory for itself: it ends with an error beside another one or beside a run. Beside it, a
-//   run or a rerun ends with an error and changes no file.
-// - A record is opened once before anything is written, twice to add to it, and once for the table. If another process
-//   changes a record in the meantime, it stays as that process wrote it.
-// - A single replicate can be measured. A failed replicate gets null with a reason for the added measures.
-// - These errors are reported before anything is written: an unknown measure, an unknown replicate, a damaged path, and
-//   a damaged or foreign record.
-
 #include "tasks/run/additions.hpp"
 
 #include <gtest/gtest.h>

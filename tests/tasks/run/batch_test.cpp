@@ -1,15 +1,3 @@
-// Properties tested here through the executable with real packings:
-// - -j 1 and -j 2 give byte-identical tables and packings, and records that differ only in timing. All files conform to
-//   the schemas.
-// - A second run repeats nothing and changes no byte. If a record was lost or damaged, only this replicate is
-//   recomputed.
-// - A run that was stopped by SIGTERM or SIGINT exits with 75 before it is complete. `status` then finds no process
-//   that works on it. The same command completes it with the same bytes.
-// - A replicate has the same bits in another sweep. If more replicates are requested, the existing ones do not change.
-// - A failed replicate is recorded with place and reason, is counted in the table, and gives the exit code 1.
-// - In a directory of another manifest, a run ends with 65 and changes nothing.
-// - `aggregate` makes the same tables as `run`.
-
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -1,12 +1,3 @@
-// Properties tested here with made-up outcomes:
-// - Without a goal, a campaign returns every replicate that has no valid record, once and in one round, with an
-//   estimate of its cost.
-// - With a goal, it returns batches. Each sweep point ends where the stopping rule, applied to all its values, ends it.
-//   The order in which the outcomes of a round are recorded, interruptions and shards do not change this. The table
-//   states how many replicates were needed.
-// - Excluded replicates do not contribute to a goal, neither in the campaign nor in the table.
-// - Two shards never return the same replicate. Together they return all.
-
 #include "tasks/run/campaign.hpp"
 #include "tasks/records/summary.hpp"
 

@@ -1,12 +1,3 @@
-// Properties tested here for directories that a run left or is still using:
-// - `status` reports the records, the unfinished replicates, and whether a process works on them. Meanwhile it reports
-//   no damage. After the stopping rule has ended the study, it estimates no remaining time.
-// - A shard prints the command that makes the tables, with quotation marks for a shell.
-// - If a record, packing or path disappears while others are made, a run or a shard reports an error, and no table is
-//   made.
-// - `rerun` recomputes a replicate and finds the same bits, or reports that there was nothing to compare with.
-// - A dry run writes nothing.
-
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -1,19 +1,3 @@
-// Properties tested here through the executable with real packings. The results are compared with one undisturbed run,
-// byte by byte except for timing:
-// - If a sweep is killed by SIGKILL twenty times, after random numbers of writes, it ends with the same bytes. At each
-//   of these times, all records are complete.
-// - A run resumes from its checkpoints. A checkpoint of a replicate that has a record is removed by the next run.
-// - A changed byte in a record, packing or checkpoint is detected. This replicate is recomputed, and nothing else
-//   changes.
-// - If the disk is full or files may not grow, a run ends with exit 1 and a message. With enough space, it gives the
-//   same bytes.
-// - A read-only directory is rejected at once. If no file system can be mounted, this test and the one of the full disk
-//   are skipped with a message.
-// - Three shards that run at the same time in one directory make the records of the whole study, and `aggregate` makes
-//   its tables.
-// - SIGINT ends a run with exit 75 in the middle of a strain step, and checkpoints are kept.
-// - A folder that is a symbolic link is rejected, and nothing is written to its target.
-
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/mount.h>

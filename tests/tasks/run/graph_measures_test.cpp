@@ -1,9 +1,3 @@
-// Properties tested here with made-up stages:
-// - Exactly the requested measures are computed.
-// - The measures of a replicate use the same result and run at the same time. A thread without a measure helps inside
-//   another one.
-// - After a stop request, measures that have not begun are left out, and the outcome is interrupted.
-
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,15 +1,3 @@
-// Properties tested here with made-up stages:
-// - Every planned replicate gives exactly one outcome, for any number of threads and whatever its stages throw.
-// - A failure states its stage and its reason.
-// - Outcomes are passed on one at a time. At most as many replicates as threads run at the same time.
-// - Outcomes do not depend on the number of threads.
-// - After a stop request nothing new starts, and unfinished replicates are passed on as interrupted.
-// - A resource failure in a stage stops the run and is thrown to the caller. It is not a failure of the replicate.
-// - An exception of the caller's functions stops the run and is thrown to the caller.
-// - If memory requires it, fewer replicates run at the same time. Replicates are requested from the plan only when they
-//   can start.
-// - Time that was spent before a checkpoint is counted.
-
 #include "tasks/run/graph.hpp"
 
 #include <gtest/gtest.h>

@@ -1,13 +1,3 @@
-// Properties tested here through the executable with real packings:
-// - A sweep can grow in its directory by solids, sizes and values of a swept parameter. Earlier replicates keep their
-//   bytes. All results and the table are those of a run of the larger manifest.
-// - Measures that were added before stay, and new replicates get them. A run of the smaller manifest changes nothing.
-// - A run or a dry run of a manifest with another seed, another setting, or other swept parameters is refused, and
-//   nothing changes.
-// - If a limit is raised for one solid, only its failed replicates are computed again. A setting of a finished
-//   replicate cannot change.
-// - Cubes reach the target energy with the default limit.
-
 #include <gtest/gtest.h>
 
 #include <filesystem>

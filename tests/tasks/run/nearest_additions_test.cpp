@@ -1,10 +1,3 @@
-// Properties tested here through the executable with real packings. Measures are added to a study without paths:
-// - The nearest states get the values that a run with all measures gives them.
-// - The record names these measures, and the tables state the number of replicates. Measures that are added later keep
-//   the mark.
-// - A nearest state that is a saddle is relaxed first. The values of the other states stay.
-// - With "keep_path": true, `run` recomputes the replicates, and the mark goes.
-
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,10 +1,4 @@
-// Properties tested here through the executable, with a preloaded library that lets system calls fail:
-// - Whichever call fails (memory, threads, descriptors, reading, writing), the run ends with exit 1 and a message, and
-//   no outcome is recorded. A complete directory does not change, byte by byte. When the calls work again, an
-//   unfinished study gives the same bytes.
-// - The same is true with little memory from the start.
-// - A limit of the stack that is too small for the program has no effect.
-// - A file system needs neither hard links, nor renames that do not replace, nor synchronised directories.
+// A preloaded library lets system calls fail (tests/tasks/support/failing_calls.cpp).
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,3 @@
-// Properties tested here:
-// - The memory of a record is little more than that of its values.
-// - The table does not depend on the order of the records, or on whether a record is given twice.
-// - Failed replicates are counted but are in no mean. Flagged replicates are counted, and are in the means unless their
-//   flag is excluded. Excluded replicates are only in the means over all.
-// - Quantities against Δφ are interpolated in ln Δφ between the states of a replicate, and not extrapolated.
-// - If a stopping rule chose the number of replicates, its quantity has Stein's interval. Proportions have Wilson's.
-// - The residual of a row is the largest one of its replicates.
-// - Records with other settings, and two results of one replicate, are rejected.
-// - A record that lacks something the table needs is rejected with its pointer.
-
 #include "tasks/tables/aggregate.hpp"
 #include "tasks/records/record.hpp"
 #include "tasks/records/summary.hpp"

@@ -1,17 +1,3 @@
-// Properties tested here with made-up records and through the executable:
-// - The differences of a row from its base are those between replicates with the same number. Their mean, standard
-//   deviation and Student's interval agree with a calculation by hand. A pair is left out if one of the two failed, is
-//   excluded or lacks the value.
-// - If paired replicates vary together, the paired interval is narrower than the one from the intervals of the two
-//   rows.
-// - Each row is compared with the row of the same solid and N that has the values of the base, and the same values of
-//   all other parameters. The base itself is not compared. Records of several manifests are paired within each
-//   manifest.
-// - The order and repetition of records change no bit.
-// - The manifest names the base, which may be changed later in the same directory; `--base` overrides it. Every format
-//   has the differences, and CSV has the same numbers as JSON.
-// - Directories with different bases are rejected by name. An invalid base is rejected with the allowed values.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

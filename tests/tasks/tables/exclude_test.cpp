@@ -1,12 +1,3 @@
-// Properties tested here through the executable with made-up outcomes:
-// - Replicates with an excluded flag are in no mean of the first line. The means over all replicates follow in every
-//   format. Every format except CSV states what is excluded; in CSV, the rows are marked.
-// - The excluded flags are not a part of a replicate. They may be changed later in the same directory, which then
-//   stores the new ones. `aggregate --exclude` overrides them.
-// - Directories with different excluded flags are rejected by name.
-// - CSV has no column without a value. Long CSV has a row for each quantity, point and set of replicates.
-// - The goal in a table uses only replicates that are not excluded.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

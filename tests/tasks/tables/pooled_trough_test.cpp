@@ -1,13 +1,3 @@
-// Properties tested here for troughs in the angles of all replicates together:
-// - A histogram is the same after it was packed.
-// - Single packings have too few contacts for a trough, and all together have one. The numbers with its cut-offs are
-//   those of the contacts of all packings. With one packing, they are its own numbers.
-// - Many packings are combined into groups. The result does not depend on the order in which they are added.
-// - Tables have the pooled troughs of the nearest states and at every distance of a series. The histograms are
-//   interpolated in ln Δφ. Failed and excluded replicates do not count.
-// - The tables conform to their schema. Text, LaTeX and CSV contain the estimates. Records without histograms give
-//   tables without them.
-
 #include "tasks/tables/pooled_trough.hpp"
 
 #include <gtest/gtest.h>

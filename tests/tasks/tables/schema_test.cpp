@@ -1,13 +1,3 @@
-// Properties tested here:
-// - Defaults, ranges, choices and places in the schema of manifests are those of the program.
-// - Manifests that the program accepts conform to the schema, including the canonical ones and every example.
-// - The schema rejects those invalid manifests that it can express.
-// - The schema of tables contains every quantity. The schemas that name flags contain every flag.
-// - Records and tables conform, also failed and flagged ones. A damaged record does not conform.
-// - A record states in how many steps the packing rearranged, and tables take the number from there.
-// - Failed records have the keys of other records, with null and a reason. Earlier records without these keys conform
-//   and are read.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

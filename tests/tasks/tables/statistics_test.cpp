@@ -1,15 +1,3 @@
-// Properties tested here:
-// - Mean, standard deviation and half width follow from their definitions; Student's t agrees with tables in textbooks.
-// - The order of the values changes no bit.
-// - With one value or none, there is no interval.
-// - Student's interval contains the mean of a normal distribution with a probability of 95 %, for 2 and more values.
-// - The bootstrap interval does so, too. It contains the means of skewed distributions more often than Student's. There
-//   is none for fewer than eight values, or if equal values make it infinite. It depends only on its key and the
-//   values.
-// - Stein's interval is Student's if it uses all values. Otherwise it differs in the number of values only.
-// - Wilson's interval agrees with published values, and contains each proportion often enough. Student's does not: its
-//   width is 0 if all values are equal.
-
 #include "tasks/tables/statistics.hpp"
 
 #include <gtest/gtest.h>

@@ -1,12 +1,3 @@
-// Properties tested here:
-// - Batches grow by a quarter, but by at least two, and never exceed max.
-// - The rule stops at the first batch whose interval is narrow enough, according to an independent calculation. A
-//   failed replicate counts without a value. Without a goal, all replicates are requested.
-// - Values beyond those that the rule requests change nothing, so further records do not matter.
-// - For samples of a normal distribution, 94 to 96 % of the intervals at which the rule stops contain the mean, for any
-//   `min` and any goal.
-// - The interval of a proportion is Wilson's. Equal values alone meet no goal.
-
 #include "tasks/tables/stopping.hpp"
 
 #include <gtest/gtest.h>

@@ -1,16 +1,3 @@
-// Properties tested here:
-// - The text table is aligned, shows two significant digits of each half width, and shows the number of replicates if
-//   fewer have a value. Without a half width, it shows none.
-// - A half width is rounded to the sixth digit of the mean, and is never rounded to 0. Values that are all equal are
-//   marked. Proportions have both ends of their interval.
-// - Integers without spread are printed as integers.
-// - Other groups of columns have their own tables if they were measured. Small numbers have a common power of ten.
-// - A table that is wider than requested is divided or transposed. No entry is lost or divided, and no line is wider.
-// - Tables after the first one are printed on request. Each has a line that states what it contains.
-// - In CSV and LaTeX, every row has as many cells as the heading. CSV has the numbers of tables.json.
-// - No two columns have the same name, whatever was swept.
-// - Characters with a special meaning in CSV, in LaTeX or on a terminal are escaped, whatever texts a record contains.
-
 #include "tasks/tables/tables.hpp"
 
 #include <fmt/format.h>

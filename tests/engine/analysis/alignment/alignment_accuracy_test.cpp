@@ -1,7 +1,5 @@
-// Property tested here for every Platonic solid. Pairs in the lab frame are passed through the functions that find the
-// contacts of a packing. Two faces that are exactly opposite, or tilted by 1e-16 .. 1e-2 rad, then have the same θ_ff
-// as the same coordinates in quadruple precision. Edges of one solid on the face of the other have the same θ_ef. The
-// errors are a few 1e-15 rad, hundreds of times smaller than the documented limit of 1e-12.
+// Reference: the same coordinates in quadruple precision. Errors are a few 1e-15 rad, hundreds of times smaller than
+// the documented limit of 1e-12.
 
 #include <gtest/gtest.h>
 

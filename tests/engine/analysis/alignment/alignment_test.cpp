@@ -1,13 +1,3 @@
-// Properties tested here, for every Platonic solid:
-// 1. If two faces are tilted by an angle of 1e-12 .. 1 rad, θ_ff is this angle within rounding errors. If an edge is
-//    raised by such an angle, θ_ef is this angle.
-// 2. Vertex-face, edge-edge (any crossing angle) and edge-face contacts have the angles that closed forms give.
-// 3. overlap() finds exactly the faces and edges of a constructed contact.
-// 4. The angles do not change if A and B are exchanged, or if both are rotated.
-// 5. The angles are the smallest ones over the features in the masks, computed with another formula. They belong to the
-//    reported features.
-// 6. Without an edge θ_ef = π/2, without a face θ_ff = π. Features outside the masks do not count.
-
 #include "engine/analysis/alignment/alignment.hpp"
 
 #include <gtest/gtest.h>

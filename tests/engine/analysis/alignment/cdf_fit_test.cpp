@@ -1,14 +1,3 @@
-// Properties tested here:
-// 1. The error of the fit equals the integral computed by another method. No other coefficient and no other α gives a
-//    smaller error. α is one of the angles, or a stationary point of the error.
-// 2. If angles are drawn from a distribution with a jump and a cubic, the fit finds this cubic.
-// 3. A fraction f of face-face angles among uniform ones is found within the standard error of the fit. The fraction of
-//    angles below the cut-off is a_0, within half an angle.
-// 4. The verdict is `collapsed` without a jump or with a jump of one angle, `bimodal` if two jumps are in the window,
-//    `out_of_range` if the jump is in its upper half, `too_few` with fewer angles than parameters. a_0 is at most c.
-// 5. The result has the same bits if the order or the unit of the angles changes, or if every angle is counted twice.
-// 6. Equal angles at the jump, also at 0, are below the cut-off. Invalid angles are rejected.
-
 #include "engine/analysis/alignment/cdf_fit.hpp"
 
 #include <gtest/gtest.h>

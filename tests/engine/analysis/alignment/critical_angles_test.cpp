@@ -1,14 +1,3 @@
-// Properties tested here:
-// 1. The angles of the tetrahedron, octahedron, dodecahedron and icosahedron agree with Table II of Smith, Fisher and
-//    Alam (2011) to its last printed digit. For the cube they are 35.3, 45, 54.7, 60 and 45 degrees.
-// 2. They agree with the closed forms for the Schläfli symbol {p, q}, and obey the duality of the solids.
-// 3. They are the largest angles: no orientation of a contact with this topology has larger ones, and a search over
-//    orientations reaches them.
-// 4. The angles of random contacts, as overlap() finds them, are below the critical angles of their topology.
-// 5. The method with normal cones gives the same angles for these solids. For other solids, a search over orientations
-//    finds the largest angle of each vertex; the critical angle is the smallest of these.
-// 6. Angles of faces that are nearly in one plane keep at least half of their digits, down to 1e-9.
-
 #include "engine/analysis/alignment/critical_angles.hpp"
 
 #include <gtest/gtest.h>

@@ -1,15 +1,3 @@
-// Properties tested here:
-// 1. The split has the largest variance between its two groups of all splits. The test searches all splits with
-//    another formula. The cut-off is in the middle between the logarithms of two neighbouring angles.
-// 2. Let η be the fraction of the variance that the split explains. Angles from a power law with any exponent have η
-//    near 0.648. Angles spread evenly over decades have η near 3/4. η scatters as much as the critical value assumes.
-//    Gaps are found in such angles only as often as expected.
-// 3. Two groups that are decades apart are separated, for any ratio of their sizes, and every angle is in the correct
-//    group.
-// 4. If all angles are far below the end of the window, also at 0, the verdict is `all_alike`. If there are few angles,
-//    it is `too_few`.
-// 5. Order and unit of the angles do not matter. Angles beyond the window do not count. Invalid input is rejected.
-
 #include "engine/analysis/alignment/gap_split.hpp"
 
 #include <gtest/gtest.h>

@@ -1,18 +1,4 @@
-// Properties tested here, for every Platonic solid:
-// 1. The Kolmogorov–Smirnov test confirms the closed forms with 100 000 random orientations for θ_ff and θ_ef, and with
-//    as many rotations about an edge for θ_ff under the constraint that this edge lies in the face. The test would fail
-//    for another solid.
-// 2. The closed forms increase from 0 to 1 continuously. At small angles they are the paper's: p(θ_ff) ∝ sin θ_ff on
-//    all of [0, θ_c,min], p(θ_ef) → const, p(θ_ff) = const under the constraint.
-// 3. The sampled angles are those that alignment() finds if the solid is pressed on a face.
-// 4. Contacts drawn at random get the verdict random, except for the fraction given by the significance level. With
-//    more small angles than random the verdict is hyper-random, with fewer it is sub-random. The probabilities are
-//    binomial sums.
-// 5. An empirical CDF counts values. Its distance from a distribution is the largest one that a dense search finds, and
-//    the probability of this distance agrees with tables.
-// 6. A stratified sample of n angles agrees with the closed form within six times n^(-3/4). For solids without a closed
-//    form it agrees with random samples.
-// 7. NaN and invalid fractions are rejected.
+// Closed forms are compared with random orientations by Kolmogorov–Smirnov tests.
 
 #include "engine/analysis/alignment/random_alignment.hpp"
 

@@ -1,16 +1,3 @@
-// Properties tested here:
-// 1. The edge-edge fraction of random contacts is 60 % for tetrahedra, 56 % for octahedra, and 52 % for dodecahedra and
-//    icosahedra. Surface and mean curvature of cubes and boxes are correct for any size. The fractions of a pair sum to
-//    1. If the two solids are exchanged, their fractions are exchanged too.
-// 2. If one of two solids with mean curvatures M_A and M_B is rotated at random, the parallelograms of the Minkowski
-//    sum have the mean total area M_A M_B/2π. Their angles, weighted by area, follow the given distributions: for every
-//    Platonic solid, for two different ones, and for solids with different edges. Without the weights they would not
-//    follow them.
-// 3. The drawn angles are those that alignment() finds if the edges touch.
-// 4. The distributions increase continuously from 0 to 1, and reach 1 at the critical angles of two edges. Near 0 they
-//    are 4 θ²/α² and 16 θ/(πα). Computing them twice gives the same bits.
-// 5. The distribution for all contacts is the sum of the distributions of both kinds, weighted by their fractions.
-
 #include "engine/analysis/alignment/random_contact.hpp"
 
 #include <gtest/gtest.h>

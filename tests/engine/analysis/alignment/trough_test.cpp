@@ -1,18 +1,3 @@
-// Properties tested here:
-// 1. The excess is the largest difference between the numbers of angles and their greatest convex minorant, which the
-//    test computes from all chords.
-// 2. Uniform and power-law densities of any exponent have no trough. At most 5 % of random sets of angles from them are
-//    misjudged.
-// 3. If the density near its minimum is f_min cosh(x/a), the cut-off is at the minimum. The edges are where the density
-//    is √5/2 times the minimum, and each tail has as many angles beyond the cut-off as lie between cut-off and edge.
-// 4. For random angles of two populations, the cut-off is near the minimum of their known density, and the number of
-//    angles below it is near that of the small population. With few angles, or if the populations overlap, the verdict
-//    is `undecided`.
-// 5. An empty trough has the depth 1. Its edges include all empty bins that are far from both populations.
-// 6. One population alone has no trough, and neither have no angles. Angles above the window do not make a trough above
-//    the window.
-// 7. If all bins move, the results move. Invalid input is rejected.
-
 #include "engine/analysis/alignment/trough.hpp"
 
 #include <gtest/gtest.h>

@@ -1,11 +1,3 @@
-// Properties tested here of the slab, the region between two planes in which the intersection of two solids must lie.
-// The pairs are of all solids, with contact volumes over five decades, and pairs that almost touch.
-// - The parts of the solids that the slab keeps contain every edge and every face of the intersection, which clipping
-//   finds. If the slab is empty, the solids are separated.
-// - The slab keeps no part unnecessarily: a part is omitted if all its vertices are outside the slab by more than
-//   rounding errors.
-// - The distances of kept vertices from kept planes equal those of the full table, and at least one plane is kept.
-
 #include "engine/geometry/overlap/distances.hpp"
 
 #include <gtest/gtest.h>

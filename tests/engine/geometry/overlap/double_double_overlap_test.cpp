@@ -1,17 +1,4 @@
-// Properties of overlap() in double-double tested here, with clipping in quadruple precision as reference. The pairs
-// are face-face contacts of every solid, in any orientation, with depths of 1e-4 … 1e-13 and tilts as large as the
-// depth:
-// - V, S and M have relative errors of at most 1e-14. The contact loop computes them, not the slow path (clipping), and
-//   finds the correct faces and edges.
-// - For a corner in a face and for crossed edges, with V = 1e-4 … 1e-16 and every pair of solids, errors are at most
-//   1e-12. For V < 1e-8, half of these pairs have errors of at most 1e-15.
-// - Every low part is needed: at a depth of 1e-10, errors are 1e-8 or more without the low parts of positions, of
-//   orientations or of the solid. They are as large in plain double.
-// - If the solids are exchanged, translated together or rotated together, the results change at most by these errors.
-// - Cross and own Hessians agree with differences of S and M in quadruple precision to 1e-9 for these contacts too.
-// - Pairs of all depths agree with plain double where that is accurate, depths of 1e-20 are resolved, and pairs that
-//   coincide to their last bits use the slow path.
-// A table of errors against depth is printed to standard output.
+// Reference: clipping in quadruple precision. Prints a table of errors against depth.
 
 #include <gtest/gtest.h>
 

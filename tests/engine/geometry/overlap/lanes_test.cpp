@@ -1,10 +1,3 @@
-// Properties tested here, with random numbers of both signs and of magnitudes from about 1e-13 to 1e13:
-// - The operations on four numbers (lanes) have the expected result in each lane: fused operations, sums of lanes and
-//   cross products within rounding errors, all others exactly.
-// - After greatest() or least() selected a number, this number still has its tag, an integer in its last bits. The tag
-//   changes the number by less than its range in units of the last bit.
-// - equal_unions() finds the edges that have at least one end inside each plane.
-
 #include "engine/geometry/overlap/lanes.hpp"
 
 #include <gtest/gtest.h>

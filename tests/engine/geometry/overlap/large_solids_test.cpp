@@ -1,13 +1,4 @@
-// Properties tested here for solids with 65 to 192 edges, and with numbers of features at the limits of 64-bit words:
-// each with itself, with another one, and with an octahedron or a cube. overlap() in double-double is compared with
-// clipping in quadruple precision:
-// - For face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of at most 1e-13,
-//   half of them at most 1e-15; the loop computes them.
-// - For corners over faces, edges over edges and random orientations with V = 1e-3 … 1e-15, errors are at most 1e-12.
-// - The slope of S agrees with differences in quadruple precision to 1e-8. So do all blocks of the Hessian with
-//   differences of S and M, in units of their norms.
-// - For pairs that coincide, and faces that lie exactly in each other, errors are at most 1e-14, on either path.
-// - The reported features are those that clipping finds. They have numbers in all words of a set.
+// Reference: clipping in quadruple precision. The numbers of features are at the limits of 64-bit words.
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,4 @@
-// Properties of overlap() in double-double tested here, with clipping in quadruple precision as reference. The pairs
-// are all pairs of solids that are not Platonic, and each of these with a cube:
-// - For face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of at most 1e-13, and
-//   half of the pairs have errors of at most 1e-15. The contact loop computes them.
-// - For corners in faces and crossed edges with V = 1e-3 … 1e-15, errors are at most 1e-12.
-// - The Hessian agrees with differences of S and M in quadruple precision to 1e-8 of its translational block.
-// - For solids that coincide and for coplanar faces, errors are at most 1e-14, with the contact loop or with clipping.
+// Reference: clipping in quadruple precision.
 
 #include <gtest/gtest.h>
 

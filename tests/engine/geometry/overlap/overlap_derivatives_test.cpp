@@ -1,12 +1,4 @@
-// Properties tested here for random contacts of all pairs of solids, with central differences of V and of (S, M) as
-// reference:
-// - (S_A, M_A, −S_A, −M_A + r×S_A) is the gradient of V. The same check rejects wrong signs in M, in S or in the lever
-//   arm of B, and a wrong volume. It uses tetrahedra: they have no inversion symmetry, which could hide such errors.
-// - H_AB is the derivative of each body's gradient with respect to position and rotation of the other body. H_AA and
-//   H_BB are the symmetric part of the derivative with respect to those of the same body; the antisymmetric part is ½
-//   θ×M.
-// - If both bodies move together, V does not change. H therefore has six null vectors, except for the rotation of the
-//   gradient.
+// Reference: central differences. Tetrahedra have no inversion symmetry, which could hide wrong signs.
 
 #include <gtest/gtest.h>
 

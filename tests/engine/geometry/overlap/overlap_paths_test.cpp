@@ -1,8 +1,4 @@
-// Properties tested here:
-// - For random pairs of all solids, overlap() uses the contact loop. V, S, M and the features agree with clipping.
-// - The check that accepts the volume of the loop rejects a volume with a relative error of 1e-9.
-// - The loop is not used where it is unreliable: for coincident solids, and for solids of equal orientation with common
-//   face planes. The result is correct there: V = 1, or the common box of two cubes.
+// Reference: clipping.
 
 #include <gtest/gtest.h>
 

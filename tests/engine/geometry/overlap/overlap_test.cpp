@@ -1,14 +1,3 @@
-// Properties tested here:
-// - If A and B are exchanged, V is the same, S_B = −S_A and M_B = −M_A + r×S_A (notation of Overlap). If both are
-//   rotated together, the overlap is the same in the rotated frame.
-// - For constructed contacts of depth δ, the volume V is a power of δ:
-//   - a vertex on a face, and an edge on an edge: V ∝ δ³ (E ∝ δ⁶)
-//   - an edge on a face: V ∝ δ² (E ∝ δ⁴)
-//   - a face on a face: V ∝ δ (E ∝ δ²)
-// - If a vertex of B presses into a face of A, S_A is normal to the face, and its length is dV/dδ.
-// - overlap() and clipped_overlap() report the faces and edges of the constructed contact. For an edge on a face, they
-//   may also report features at the ends of the edge and at the rim of the face.
-
 #include "engine/geometry/overlap/overlap.hpp"
 #include "engine/geometry/overlap/clipped_overlap.hpp"
 

@@ -1,7 +1,3 @@
-// Property tested here for random H_AB, S and r of both signs and many magnitudes, including zeros: set_own_hessians()
-// computes H_AA and H_BB with the same bits as the plain formula in own_hessian(). It changes neither H_AB nor the
-// memory behind the blocks.
-
 #include "engine/geometry/overlap/own_hessians.hpp"
 
 #include <gtest/gtest.h>

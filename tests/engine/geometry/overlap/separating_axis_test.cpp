@@ -1,11 +1,3 @@
-// Properties tested here, for random pairs of all solids that almost touch:
-// - If the gap along any axis is larger than the tolerance, both methods for the overlap find none.
-// - If the gap is negative along every axis, the solids overlap. best_axis() gives the same answer whichever solid is
-//   A.
-// - best_axis() finds the largest gap. This gap equals the one between the projections of the vertices.
-// - Pairs separated by a face of A, by a face of B and only by edges all occur.
-// - The axis that overlap() returns separates the solids. An axis of the kind `none` has the gap −infinity.
-
 #include "engine/geometry/overlap/separating_axis.hpp"
 
 #include <gtest/gtest.h>

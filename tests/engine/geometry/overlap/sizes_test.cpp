@@ -1,14 +1,4 @@
-// Properties tested here for solids of different sizes, with ratios 1 : 1.4, 1 : 3 and 1 : 10, with up to 32 edges and
-// with more. The smaller solid has unit volume. The larger one is A in half of the pairs. overlap() in double-double is
-// compared with clipping in quadruple precision:
-// - For face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of at most 1e-13,
-//   half of the pairs at most 1e-15.
-// - For corners over faces and edges over edges with V = 1e-3 … 1e-15, errors are at most 5e-12.
-// - The Hessian agrees with differences of S in quadruple precision to 1e-8 of its translational block.
-// - If one solid is inside the other, V is its volume to 1e-14. S is zero within 1e-14 of the surface of the inner
-//   solid, and M is zero within 1e-14 of this surface times the distance.
-// If a whole pair is scaled by a factor s, then V, S, M and the Hessian change by their powers of s. This is exact for
-// powers of two, and accurate to 1e-12 for other factors.
+// Reference: clipping in quadruple precision.
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,5 @@
-// Properties of overlap() in double-double tested here for an edge in a face, with clipping in quadruple precision as
-// reference. The edge is parallel to the face within a tilt as large as the depth or smaller, so that the intersection
-// is a strip with a width much smaller than its length:
-// - The errors of V, S and M are at most the bound that overlap.hpp states, for V = 1e-4 … 1e-20, solids with up to 64
-//   edges and size ratios up to 10.
-// - The bound is needed: some errors exceed 1e-12.
+// Reference: clipping in quadruple precision. The edge is parallel to the face within a tilt of at most the depth, so
+// that the intersection is a strip with a width much smaller than its length.
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,4 @@
-// Properties tested here for wide solids, which have 33 to 64 edges. The pairs are each with itself, with each other,
-// and with an octahedron and a cube as A or B. overlap() in double-double is compared with clipping in quadruple
-// precision:
-// - For face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of at most 1e-13,
-//   half of the pairs at most 1e-15. The contact loop computes them.
-// - For corners in faces, crossed edges and random orientations with V = 1e-3 … 1e-15, errors are at most 1e-12.
-// - The Hessian agrees with differences of S in quadruple precision to 1e-8 of its translational block.
-// - For solids that coincide and for coplanar faces, errors are at most 1e-14, with the loop or with clipping.
-// - The reported features are those that clipping finds. Some of them have numbers above 31.
-// For solids with at most 32 edges, the contact loops for 64 and for 192 edges give exactly the same results as the one
-// for 32 edges. For solids with 33 to 64 edges, the loop for 192 edges gives exactly the same results as the one for 64
-// edges.
+// Wide solids have 33 to 64 edges. Reference: clipping in quadruple precision.
 
 #include <gtest/gtest.h>
 

@@ -1,18 +1,3 @@
-// Properties tested here, for cubes:
-// - The nearest image is in [−L/2, L/2) along each axis, an integer number of sides away, and the shortest of all
-//   images. It does not depend on the image from which it is computed.
-// - The side of a cell must be finite and positive.
-// For cells of any shape:
-// - Translations, fractional coordinates, heights and volume are those of the lattice vectors, also in double-double.
-// - Reduction keeps the lattice (in double-double) and its handedness, and does not change a reduced cell. No
-//   translation out of a thousand is shorter than the reduced vectors. Reduction also terminates for extremely skew
-//   cells.
-// - The shortest translation and the nearest image agree with an exhaustive search.
-// - Cells with zero volume and left-handed cells are rejected. Other cells are legal if the shortest translation is
-//   longer than the limit.
-// - side_at() gives the side for a density, least_side() is two diameters of the solid, and least_particles() is the
-//   smallest N whose cell has a longer side.
-
 #include "engine/packing/cell/periodic_cell.hpp"
 
 #include <gtest/gtest.h>

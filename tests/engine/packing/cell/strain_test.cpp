@@ -1,12 +1,3 @@
-// Properties tested here:
-// - Conversions between components and tensor are inverse to each other and preserve inner products. The antisymmetric
-//   part of a tensor is ignored.
-// - strained(r)·ε is ε r.
-// - The bases of strains are orthonormal, and the traceless one is traceless. A basis has as many strains as requested.
-// - exp(ε)² = exp(2ε) and exp(ε) exp(−ε) = 1 to 1e-30, in quadruple precision, and det exp(ε) = exp(tr ε) to 1e-15. If
-//   ε is far below the spacing of doubles near 1, exp(ε) − 1 still has a relative error of only 1e-12.
-// - An isotropic strain of a cube gives a cube.
-
 #include "engine/packing/cell/strain.hpp"
 
 #include <gtest/gtest.h>

@@ -1,12 +1,3 @@
-// Properties tested here:
-// - Every cell of the stability atlas has the verdict in the tables of atlas_expected.cpp. Each letter is for one
-//   setting: h holds, r refuses, f fails, and ? holds or refuses, depending on rounding.
-// - Every cell is in these tables once.
-// - isojam's own methods hold or refuse in every cell.
-// - Every cell states what was measured and the reason for its verdict.
-// - The bits are the same every time.
-// - After a stop request no further rows are made.
-
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,11 +1,3 @@
-// Properties tested here with made-up cells:
-// - Cells of one regime and method with the same verdict form a group (a run). The group that holds comes first, then
-//   one group for each reason, with the result of its first cell. Neighbouring settings are written as a range. Methods
-//   that alternate are separated.
-// - Every cell is in exactly one group.
-// - The table names each group with its verdict, and states reason and result for failures and refusals. The data
-//   contain every cell.
-
 #include "tasks/extras/chart/atlas/atlas_runs.hpp"
 
 #include <gtest/gtest.h>

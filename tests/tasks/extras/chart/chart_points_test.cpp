@@ -1,16 +1,3 @@
-// Properties tested here for every point of a small real chart:
-// - A point states why the method stopped, a spread with least ≤ median ≤ greatest, and the number of runs.
-// - A point that reached a residual has an error of at most this residual; otherwise it is marked as failed. Wrong
-//   overlaps, spurious negative modes and eigensolvers without convergence are marked as failed too. Except for
-//   overlaps, some points of each kind do fail. The table marks the same points.
-// - The front of a case consists of the points for which no other point is both faster and more accurate.
-// - Settings of the protocol have different names. The difference of a fit window from the first setting is the
-//   difference of the means. The interval of paired differences is given only if the packings have the same initial
-//   configuration.
-// - For every method, the fitted power of N is the power law of its points.
-// - The bias of the default method vanishes for a very small residual; the bias of a minimiser with a large residual
-//   does not.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

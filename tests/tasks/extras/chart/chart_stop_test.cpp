@@ -1,12 +1,3 @@
-// Properties tested here:
-// - A signal in any part of a chart ends the command with exit code 75, after its three files were written. Parts that
-//   had ended are complete; the current part and later ones are marked as interrupted.
-// - After each part there is a chart in which the later parts are empty and marked as interrupted.
-// - Packings are made once. Hessians and modes use the same equilibria, which are also made once.
-// - A family that is stopped in the middle keeps the measurements made so far.
-// - A stopped atlas has the first rows of the whole atlas and conforms to the schema. It has no row of the cell that
-//   was stopped.
-
 #include <gtest/gtest.h>
 
 #include <chrono>

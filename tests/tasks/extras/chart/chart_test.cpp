@@ -1,17 +1,3 @@
-// Properties tested here:
-// - A configuration without keys is the built-in one. Configurations are read as they were written, also the two
-//   built-in ones.
-// - An invalid configuration is rejected with the pointer and the allowed values. The schema rejects what it can
-//   express, and its defaults are those of the program.
-// - The Pareto front contains the points for which no other point is both faster and more accurate, in order of time.
-//   It contains neither failures nor points without an error.
-// - Conclusions rank methods by the number of cases reached, then by time. They consist of sentences about the
-//   requested residuals: which methods reach them, which one is the fastest, which ones miss them, and where.
-// - Medians are taken over finite values.
-// - A small chart with all comparisons conforms to its schema. Two runs differ only in times.
-// - If the time of a chart is over, every family states this.
-// - The command writes three files and no others. For an invalid configuration it writes nothing.
-
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>

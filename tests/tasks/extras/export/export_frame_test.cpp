@@ -1,15 +1,3 @@
-// Properties tested here:
-// - For constructed contacts, exactly the touching faces are marked, with the class of the contact. Both particles
-//   count the contact. Only face-face contacts make clusters; the number of a cluster is the lowest index of its
-//   particles.
-// - If several pairs of faces of a contact are parallel, the faces that lie in each other are marked.
-// - If a face has two contacts, it is marked with the stronger class.
-// - If there are too few contacts for a classification, faces and clusters are undecided.
-// - The sum of Z counts each touching pair twice.
-// - Wrapping moves a position by whole sides into the half-open cell, also at the ends. Conversion to single precision
-//   does not move it outside again.
-// - States of different packings are not accepted as one decompression.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,16 +1,3 @@
-// Properties tested here:
-// - The same states give the same bytes in every format, also after the packings were written to JSON and read. No text
-//   contains NaN.
-// - In a GSD file the index is in the order of frames and names, whatever the order of the chunks of a frame. Every
-//   entry of the index lies in the file and points at its data. An invalid chunk is rejected.
-// - The nearest states and the decompressions are written to the files that are listed on standard output, and to no
-//   others. The same is true for all replicates at once, except that failed ones are omitted with a warning.
-// - If no record has the given name, also if the name is a path, the most similar name is suggested. Nothing is read or
-//   written.
-// - The exit code is 2 for a failed replicate, a decompression that was not kept, an output that cannot be written, an
-//   output in place of another one, and an unknown format. It is 65 for damaged packings and for decompressions of
-//   several solids.
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

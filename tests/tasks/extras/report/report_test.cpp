@@ -1,15 +1,3 @@
-// Properties tested here:
-// - The data in the page are JSON that is read as it was written. Texts in the data cannot act as markup.
-// - The same results give the same bytes. The command writes only the requested file, and nothing from damaged results.
-// - The extrapolation goes from φ_J through the states that were fitted. The paper's φ_J is shown only for its solid
-//   and N.
-// - Thinned distributions are exact at their points and end at 1.
-// - Views show an unflagged replicate of every sweep point, and more replicates if there is room, but never a failed
-//   one.
-// - Contacts, forces, cell and modes of a view are those of the packing. Clusters stay connected across the boundary.
-// - A sweep in which some or all replicates failed has a report. Means omit what the manifest excludes.
-// - If decompressions were kept, the report states which measures can be added.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
