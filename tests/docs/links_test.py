@@ -1,12 +1,13 @@
-"""Tests the links in the pages. usage: links_test.py SOURCE"""
+"""Tests the links in the pages, and that no line breaks its paragraph. usage: links_test.py SOURCE"""
 
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "docs/site"))
-from pages import anchors, links, pages  # noqa: E402
+from pages import anchors, lines_of, links, pages  # noqa: E402
 
 SOURCE = pathlib.Path(sys.argv[1]).resolve()
 
@@ -26,6 +27,18 @@ def broken(root, page):
         elif anchor and (file.suffix != ".md" or anchor not in anchors(file.read_text(encoding="utf-8"))):
             wrong.append(f"{page}:{number}: no heading has the anchor of {target} in both ways of naming it")
     return wrong
+
+
+def breaking(text):
+    """Numbers of lines that begin with an HTML comment, where renderers end the paragraph, and of lines inside a paragraph
+    that a mark at their beginning makes a list or a quotation."""
+    found, before = [], ""
+    for number, is_code, line in lines_of(text):
+        comment = re.match(r"\s*(?:[-*] |\d+\. )?<!-- (?!block|end)", line)
+        mark = re.match(r"(?:[>+]|\d+\.) ", line) and re.match(r"(?![-*>+] |\d+\. )\S", before)
+        found += [number] if not is_code and (comment or mark) else []
+        before = "" if is_code else line
+    return found
 
 
 class Links(unittest.TestCase):
@@ -51,6 +64,14 @@ class Links(unittest.TestCase):
             for text in ("[x](none.md)", "![x](none.png)", "[x](other.md#none)", "[x](#none)", "[x](../out.md)",
                          "[x](other.md#a---b)", "[x](other.md#twice-1)", "text\n\n[r]: none.md"):
                 self.assertEqual(wrong(text), 1, text)
+
+    def test_no_line_breaks_its_paragraph(self):
+        for page in pages(SOURCE):
+            self.assertEqual(breaking(page.read_text(encoding="utf-8")), [], page)
+        for text in ("The mean is\n<!-- = total -->5<!-- / --> today.", "One.\n\n- <!-- = total -->5<!-- / --> jam.\n",
+                     "stiff if the ratio\n> 10 is reached", "would then be\n1. Its", "one\n+ two"):
+            self.assertEqual(len(breaking(text)), 1, text)
+        self.assertEqual(breaking("1. one\n   more\n2. two\n\n> a\n> b\n\n```\n<!-- c -->\nd\n> e\n```\n"), [])
 
     def test_indexes_are_complete(self):
         def linked(page):
