@@ -1,4 +1,5 @@
-"""Makes the two pages of a study from data: README.md, whose tables and numbers have marks, and tables.md.
+"""Makes the two pages of a study from data: README.md, whose tables and numbers have marks, and tables.md, which is
+written only to another folder than that of the study.
 
 Sentences of README.md that depend on the data are checked: each claim is a sentence and a function of the data. If the
 function is false, the sentence must be rewritten."""
@@ -83,21 +84,23 @@ def summary_page(page, study, data):
 def main(study, folder):
     """Command line of a study's page.py. `study` has TITLE, ENTRIES, FILES, BLOCKS, TABLES, CLAIMS and value_of. It may
     have a class Data of its own."""
-    parser = argparse.ArgumentParser(description=f"Makes README.md and tables.md of {folder.name} from data.")
+    parser = argparse.ArgumentParser(description=f"Makes README.md of {folder.name} from data, and with -o also tables.md.")
     parser.add_argument("--data", type=Path, nargs="*", help="data files; the default is the committed data")
     parser.add_argument("-o", "--out", type=Path, default=folder, help="folder of the pages; the default is the study's")
     parser.add_argument("--check", action="store_true", help="write nothing; a page that differs is an error")
     parser.add_argument("--summary", type=Path, help="another page with the block `summary`, which is made instead")
     arguments = parser.parse_args()
     data = getattr(study, "Data", Data)(*(arguments.data or study.FILES))
+    elsewhere = arguments.out.resolve() != folder.resolve() and not arguments.summary
     source = arguments.summary or folder / "README.md"
     page = source.read_text(encoding="utf-8")
     try:
         if arguments.summary:
             made = {source: summary_page(page, study, data)}
         else:
-            made = {arguments.out / "README.md": renewed(page, study.BLOCKS, data, study.value_of),
-                    arguments.out / "tables.md": folded(tables_page(study, data))}
+            made = {arguments.out / "README.md": renewed(page, study.BLOCKS, data, study.value_of)}
+        if elsewhere:
+            made[arguments.out / "tables.md"] = folded(tables_page(study, data))
     except PageError as error:
         sys.exit(f"{source}: {error}")
     errors = [] if arguments.summary else claim_errors(made[arguments.out / "README.md"], study.CLAIMS, data)
@@ -106,7 +109,6 @@ def main(study, folder):
                    for path, text in made.items() if not path.exists() or path.read_text(encoding="utf-8") != text]
         sys.exit("\n".join(f"{source}: {error}" for error in errors) if errors else 0)
     arguments.out.mkdir(parents=True, exist_ok=True)
-    elsewhere = arguments.out.resolve() != folder.resolve() and not arguments.summary
     if elsewhere:
         for image in re.findall(r"\]\((\w+\.(?:svg|png|pdf))\)", "\n".join(made.values())):
             if not (arguments.out / image).exists():

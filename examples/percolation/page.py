@@ -1,4 +1,4 @@
-"""Makes README.md and tables.md: python3 page.py [--data FILE...] [-o OUT] [--check]"""
+"""Updates README.md, or makes it and tables.md in OUT: python3 page.py [--data FILE...] [-o OUT] [--check]"""
 
 import math
 import sys
