@@ -14,7 +14,7 @@ struct Interval {
   double low = 0, high = 0;
 };
 
-/// Methods for 95 % confidence intervals of a mean. docs/statistics.md states how often each interval contains the
+/// Methods for 95 % confidence intervals of a mean. docs/results.md states how often each interval contains the
 /// mean.
 enum class IntervalMethod : std::uint8_t {
   student,  ///< Student's t; the number of values is fixed in advance
