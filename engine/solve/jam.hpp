@@ -15,12 +15,12 @@
 namespace isojam {
 
 /// Setting for the relaxation of the states during compression. Its names are the values of the key `consolidation` in
-/// manifests. φ_J of tetrahedra depends on this setting, see docs/protocol.md.
+/// manifests. φ_J of tetrahedra depends on this setting, see examples/02-strain-step.
 enum class Consolidation {
   /// Relaxed compression: L-BFGS relaxes each state with at most Compression::evaluations evaluations.
   relaxed,
   /// Hasty compression: L-BFGS relaxes each state with at most 50 evaluations. For tetrahedra with N = 64, the
-  /// confidence interval of φ_J then contains the paper's φ_J (docs/protocol.md).
+  /// confidence interval of φ_J then contains the paper's φ_J (examples/02-strain-step).
   hasty
 };
 template <>
@@ -80,7 +80,7 @@ struct Compression {
   double unjammed_energy = 1e-14;  ///< E/N below which a state that is not yet relaxed counts as unjammed
   /// Largest number of evaluations for a state. For the paper's four solids, the differences between φ_J with 500 and
   /// with 2000 evaluations are not significant. For tetrahedra, 2000 are nevertheless recommended: their φ_J increases
-  /// by 0.005 ± 0.005 from 500 to 8000 evaluations (docs/protocol.md).
+  /// by 0.005 ± 0.005 from 500 to 8000 evaluations (examples/02-strain-step).
   int evaluations = 500;
   Consolidation relaxation = Consolidation::relaxed;  ///< relaxation of the states
 };

@@ -68,7 +68,7 @@ void put_limit_of_cubes(const JsonPlace& root, Manifest& manifest) {
   if (fits) manifest.by_solid[std::string(to_string(cube))]["max_density"] = limit;
 }
 
-/// φ_J of tetrahedra depends on how completely the states of the compression are relaxed (docs/protocol.md).
+/// φ_J of tetrahedra depends on how completely the states of the compression are relaxed (examples/02-strain-step).
 void put_relaxation_of_tetrahedra(const JsonPlace& root, Manifest& manifest) {
   const std::string key = "consolidation_evaluations";
   if (!is_free(root, manifest, SolidKind::tetrahedron, key)) return;

@@ -37,7 +37,7 @@ constexpr double scatter = 0.03;
 constexpr long insufficient_evaluations = 60000;
 constexpr double near_jamming = 0.01, residual_left = 3e-4;
 
-/// Tetrahedra that are relaxed with fewer evaluations during compression jam at lower densities: see docs/protocol.md.
+/// Tetrahedra that are relaxed with fewer evaluations during compression jam at lower densities: see examples/02-strain-step.
 constexpr int relaxed_evaluations = 500;
 
 class Warnings {

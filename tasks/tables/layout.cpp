@@ -183,7 +183,8 @@ constexpr std::string_view difference_meaning =
 constexpr std::string_view trough_meaning =
     "log10 of the lower edge, the cut-off and the upper edge of each trough (rad); contact numbers with these "
     "cut-offs.";
-constexpr std::string_view angle_meaning = "Largest angles, in degrees, that the shapes allow for each kind of contact.";
+constexpr std::string_view angle_meaning =
+    "Largest angles, in degrees, that the shapes allow for each kind of contact.";
 
 struct LaidOut {
   std::string_view name, meaning;
