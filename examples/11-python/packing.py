@@ -1,8 +1,8 @@
 """usage: /usr/bin/python3 packing.py DIR SOLID
 
-Draws a packing of a results directory beside the energies that give φ_J, and writes packing.png. In the packing, each
-cluster of at least two particles that face-face contacts connect has a colour; all other particles are grey. Needs
-Debian's python3-matplotlib. The module isojam is in build/python."""
+Draws a packing of a results directory beside the energies that give φ_J, and writes packing.png. In the packing, the
+largest clusters of particles that face-face contacts connect have a colour each; all other particles are grey. The
+energies leave out the excluded replicates. Needs Debian's python3-matplotlib. The module isojam is in build/python."""
 
 # %% Clusters: particles that face-face contacts connect
 import sys
@@ -35,7 +35,7 @@ def clusters(count, pairs):
 # %% Packing: faces with a a light from the upper left
 def draw_packing(axes, packing, label):
     sizes = numpy.bincount(label, minlength=len(packing))
-    large = [k for k in numpy.argsort(-sizes, kind="stable") if sizes[k] > 1]
+    large = [k for k in numpy.argsort(-sizes, kind="stable") if sizes[k] > 1][:len(CLUSTERS)]
     faces, colours = [], []
     light = numpy.array([0.35, -0.6, 0.72])
     for particle, kind in enumerate(packing.kind):
@@ -44,7 +44,7 @@ def draw_packing(axes, packing, label):
         centre = corners.mean(axis=0)
         corners = corners + packing.cell @ -numpy.floor(numpy.linalg.solve(packing.cell, centre))
         rank = large.index(label[particle]) if label[particle] in large else None
-        colour = numpy.array(matplotlib.colors.to_rgb("#d9d9d9" if rank is None else CLUSTERS[rank % len(CLUSTERS)]))
+        colour = numpy.array(matplotlib.colors.to_rgb("#d9d9d9" if rank is None else CLUSTERS[rank]))
         for face in solid.faces:
             points = corners[list(face)]
             normal = numpy.cross(points[1] - points[0], points[2] - points[0])
@@ -63,13 +63,14 @@ def draw_packing(axes, packing, label):
 def draw_energies(axes, study):
     for solid, style in isojam.palette.styles(numpy.unique(study.states["solid"])).items():
         colour = style["color"]
-        states = study.states[study.states["solid"] == solid]
-        for name in numpy.unique(states["replicate"]):
+        states = study.states.kept[study.states.kept["solid"] == solid]
+        names = numpy.unique(states["replicate"])
+        for name in names:
             of = states["replicate"] == name
             axes.plot(states["phi"][of], states["energy_per_particle"][of] ** (1 / 6), ".-", color=colour, markersize=4,
-                      linewidth=0.8, label=solid if name.endswith("r0000") else None)
-        kept = study.replicates["solid"] == solid
-        axes.plot(study.replicates["phi_j"][kept], 0 * study.replicates["phi_j"][kept], "|", color=colour, markersize=12)
+                      linewidth=0.8, label=solid if name == names[0] else None)
+        kept = study.replicates.kept[study.replicates.kept["solid"] == solid]
+        axes.plot(kept["phi_j"], 0 * kept["phi_j"], "|", color=colour, markersize=12)
     axes.set(xlabel=r"density $\phi$", ylabel=r"$(E/N)^{1/6}$", ylim=(0, None))
     axes.legend(frameon=False)
 

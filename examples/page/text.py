@@ -46,7 +46,7 @@ def counted(estimate):
 
 
 def spread(estimate):
-    """± half the width of the 95 % prediction interval for one more packing."""
+    """± half the width of the 95 % prediction interval for another packing."""
     if not estimate or estimate["half_width"] is None:
         return "–"
     if estimate["half_width"] == 0:

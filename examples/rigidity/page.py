@@ -1,5 +1,6 @@
 """Updates README.md, or makes it and tables.md in OUT: python3 page.py [--data FILE...] [-o OUT] [--check]"""
 
+import math
 import sys
 from pathlib import Path
 
@@ -10,7 +11,7 @@ import pages  # noqa: E402
 import values  # noqa: E402
 from counting import EDGES, FAR, drawn_size, infinite, limit_at_jamming  # noqa: E402
 from data import SOLIDS, SOLIDS_64  # noqa: E402
-from tables import DISTANCES, TABLES, TILTS_AT, main_table, other_solids  # noqa: E402, F401
+from tables import DISTANCES, TABLES, TILTS_AT, main_table, other_solids, tilts_table  # noqa: E402, F401
 from text import number, significant  # noqa: E402
 
 TITLE = "What makes a packing rigid"
@@ -18,7 +19,7 @@ FILES = (HERE.parent / "paper/data/records.json", HERE / "data/records.json")
 ENTRIES = """An entry a ± b (n) is the mean a over n packings and half the width b of its 95 % confidence interval
 (Student t). A third number ± c is a systematic error, which the text defines. *Nearest* is the state nearest jamming of
 each packing. A dash means that the value is unknown."""
-BLOCKS = {"main": main_table}
+BLOCKS = {"main": main_table, "tilts": tilts_table}
 WITHOUT_TETRAHEDRA = SOLIDS[1:]
 
 
@@ -101,7 +102,7 @@ def missing_solids(data):
 
 value_of = values.value_of({
     **values.VALUES, "exponent": exponent_end, "among": among, "solids": solids_end, "limit_errors": limit_errors,
-    "missing_normals": end_of(missing_by_normals, 1), "prestress": end_of(unsupported_modes, 2),
+    "missing_normals": end_of(missing_by_normals, 1), "supported": lambda data: str(math.floor(100 * (1 - max(unsupported_modes(data)) / 6))),
     "waves": end_of(wave_ratios, 1), "m_trough": lambda data, solid: number(
         data.nearest(solid, 100, "missing_trough")["mean"], 2),
     "farthest": lambda data: significant(farthest(data), 2),
@@ -137,15 +138,16 @@ def identity_holds(data):
 
 # Sentences of README.md that follow from the data only as long as these functions are true.
 CLAIMS = {
-    "resist almost all motions by contact normals, which resist compression, and by edges and faces, which resist tilting.": lambda data: min(missing_by_normals(data)) > 1 and all(
-        data.nearest(s, 100, "missing_trough")["mean"] < 0.2 for s in SOLIDS),
-    "Normals alone do so in most modes only in tetrahedra.": lambda data: [
+    "are rigid because contacts resist compression along their normals, and tilts of": lambda data: all(
+        data.nearest(s, 100, "missing_trough")["mean"] < 0.2 < 1 < data.nearest(s, 100, "missing_normals")["mean"]
+        for s in SOLIDS),
+    "normals alone do so in most modes only in tetrahedra,": lambda data: [
         data.at(s, 100, "held_by_second_each", TILTS_AT)["mean"] < 3 for s in SOLIDS] == [True, False, False, False],
-    "For any classification, C = 12 − 6/N − 2m + 2S/N": identity_holds,
+    "For any classification of contacts, C = 12 − 6/N − 2m + 2S/N": identity_holds,
     "Linear extrapolation to Δφ = 0 gives these C within errors of": lambda data: all(
         abs(limit["mean"] - data.constraints(s, drawn_size(data), "trough")["mean"]) < limit["half_width"]
         for s, limit in zip(SOLIDS, limits_by_trough(data))),
-    "Tetrahedra have redundant constraints; the others lack m =": lambda data: all(
+    "tetrahedra have redundant constraints, and the others lack m =": lambda data: all(
         (m := data.nearest(s, 100, "missing_trough"))["mean"] > m["half_width"] for s in SOLIDS[1:])
         and data.nearest(SOLIDS[0], 100, "redundant_trough")["mean"] > 0.05,
     "Fewer are missing in octahedra": lambda data: all(data.nearest(SOLIDS[1], n, "missing_trough")["mean"] < min(

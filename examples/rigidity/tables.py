@@ -37,23 +37,23 @@ def with_range(data, solid, particles, column):
 
 def main_table(data):
     size = drawn_size(data)
-    rows = [[name, *cells] for name, cells in (
-        (f"C by trough, N = {size}", [interval(data.constraints(s, size, "trough")) for s in SOLIDS]),
-        (f"C by fit, N = {size}", [interval(data.constraints(s, size, "fit")) for s in SOLIDS]),
-        (f"m by trough, N = {size}", [interval(data.nearest(s, size, "missing_trough")) for s in SOLIDS]),
-        (f"m by fit, N = {size}", [interval(with_range(data, s, size, "missing")) for s in SOLIDS]),
-        (f"S/N by trough, N = {size}", [interval(data.nearest(s, size, "redundant_trough")) for s in SOLIDS]),
-        (f"S/N by fit, N = {size}", [interval(with_range(data, s, size, "redundant")) for s in SOLIDS]),
-        (f"m by fit, N = 100, Δφ = {TILTS_AT}", [interval(data.at(s, 100, "missing", TILTS_AT)) for s in SOLIDS]),
-        ("the same without near-rattlers", [interval(data.at(s, 100, "backbone_m", TILTS_AT)) for s in SOLIDS]),
-        ("m by normals only, N = 100", [interval(data.nearest(s, 100, "missing_normals")) for s in SOLIDS]),
-        (f"{MODES} normals, N = 100", [interval(data.at(s, 100, "held_by_second_each", TILTS_AT)) for s in SOLIDS]),
-        (f"{MODES} normals and stiff tilts, N = 100", [interval(data.at(s, 100, "prestress_10_each", TILTS_AT))
-                                                       for s in SOLIDS]),
-        ("stiff tilts per face-face contact, N = 100", [interval(data.at(s, 100, "stiff_tilts_ff", TILTS_AT)) for s in SOLIDS]),
-        ("stiff tilts per edge-face contact, N = 100", [interval(data.at(s, 100, "stiff_tilts_ef", TILTS_AT)) for s in SOLIDS]),
-        ("stiff tilts per other contact, N = 100", [interval(data.at(s, 100, "stiff_tilts_l", TILTS_AT)) for s in SOLIDS]))]
-    return table(["nearest jamming", *SOLIDS], rows)
+    return table(["nearest jamming", *SOLIDS], [[name, *map(interval, found)] for name, found in (
+        ("C by trough", [data.constraints(s, size, "trough") for s in SOLIDS]),
+        ("C by fit", [data.constraints(s, size, "fit") for s in SOLIDS]),
+        ("m by trough", [data.nearest(s, size, "missing_trough") for s in SOLIDS]),
+        ("m by fit", [with_range(data, s, size, "missing") for s in SOLIDS]),
+        ("S/N by trough", [data.nearest(s, size, "redundant_trough") for s in SOLIDS]),
+        ("S/N by fit", [with_range(data, s, size, "redundant") for s in SOLIDS]),
+        ("m by normals only", [data.nearest(s, size, "missing_normals") for s in SOLIDS]))])
+
+
+def tilts_table(data):
+    return table([f"Δφ = {TILTS_AT}", *SOLIDS], [
+        [name, *(interval(data.at(s, 100, column, TILTS_AT)) for s in SOLIDS)] for name, column in (
+            (f"{MODES} normals", "held_by_second_each"), (f"{MODES} normals and stiff tilts", "prestress_10_each"),
+            ("stiff tilts per face-face contact", "stiff_tilts_ff"),
+            ("stiff tilts per edge-face contact", "stiff_tilts_ef"), ("stiff tilts per other contact", "stiff_tilts_l"),
+            ("m by fit", "missing"), ("m by fit without near-rattlers", "backbone_m"))])
 
 
 def density_text(density, particles):

@@ -48,7 +48,7 @@ class Pages(unittest.TestCase):
 
     def test_are_refused_if_changed(self):
         changes = {"paper": (("| octahedron | 0.6", "| octahedron | 0.7"), ("Contacts are hypostatic", "Contacts are isostatic")),
-                   "rigidity": (("12 − 6/N", "13 − 6/N"),),
+                   "rigidity": (("2m + 2S/N", "3m + 2S/N"),),
                    "percolation": (("| octahedron | 0 | 16 | 0.6", "| octahedron | 0 | 16 | 0.7"),
                                    ("None of these packings", "One of these packings"))}
         for study, replacements in changes.items():
