@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -81,6 +82,9 @@ void Problems::refuse_any(const Json& document) const {
 }
 
 std::string number_in(const Range& range) {
+  if (range.high == std::numeric_limits<double>::max())
+    return range.low == -range.high ? "a number"
+                                    : fmt::format("a number {} {}", range.low_excluded ? ">" : "≥", range.low);
   return fmt::format("a number in {}{}, {}{}", range.low_excluded ? '(' : '[', range.low, range.high,
                      range.high_excluded ? ')' : ']');
 }
@@ -170,7 +174,8 @@ std::size_t JsonPlace::expect_entries(std::size_t most, std::string_view allowed
   return size;
 }
 
-void JsonPlace::expect_keys(std::span<const std::string_view> names, std::string (*elsewhere)(std::string_view)) const {
+void JsonPlace::expect_keys(std::span<const std::string_view> names,
+                            const std::function<std::string(std::string_view)>& elsewhere) const {
   expect_object(fmt::format("an object with the keys {}", quoted_list(names)));
   for (const auto& item : value_.items()) {
     const std::string_view key = item.key();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <set>
 #include <span>
 #include <string>
@@ -113,7 +114,8 @@ class JsonPlace {
   /// Reports each key of the object that is not in `names`, inside attempt(). The error suggests the name that
   /// `elsewhere` returns for the key. If `elsewhere` is not given or returns an empty text, it suggests the most
   /// similar name.
-  void expect_keys(std::span<const std::string_view> names, std::string (*elsewhere)(std::string_view) = nullptr) const;
+  void expect_keys(std::span<const std::string_view> names,
+                   const std::function<std::string(std::string_view)>& elsewhere = {}) const;
 
   double number(const Range& range) const;
   std::int64_t integer(const Range& range) const;

@@ -6,18 +6,11 @@
 #include <span>
 #include <string_view>
 
+#include "tasks/io/describe.hpp"
 #include "tasks/io/json.hpp"
 #include "tasks/measure/list.hpp"
 
 namespace isojam {
-
-/// Quantities with a common table.
-struct QuantityGroup {
-  std::string_view name;     ///< title of the table
-  std::string_view meaning;  ///< one sentence about the quantities, printed below the title
-
-  friend constexpr bool operator==(const QuantityGroup& a, const QuantityGroup& b) { return a.name == b.name; }
-};
 
 /// Definition of a quantity: its place in a record, its name in tables, its unit, and how it is averaged. The source
 /// file of a measure defines the quantities of the measure.

@@ -14,8 +14,6 @@
 namespace isojam {
 namespace {
 
-constexpr Range not_negative{0, std::numeric_limits<double>::max()};
-
 /// If no contact carries a force, the residual is infinite. JSON has no infinity, so null is written.
 Json residual_json(double residual) { return std::isinf(residual) ? Json(nullptr) : Json(residual); }
 double read_residual(const JsonPlace& place) {

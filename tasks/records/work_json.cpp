@@ -5,8 +5,6 @@
 namespace isojam {
 namespace {
 
-constexpr Range not_negative{0, std::numeric_limits<double>::max()};
-
 long read_count(const JsonPlace& place) { return static_cast<long>(place.integer(count_range)); }
 
 }  // namespace

@@ -1,15 +1,9 @@
 #pragma once
 
-#include <limits>
-
 #include "engine/solve/jam.hpp"
-#include "tasks/io/place.hpp"
+#include "tasks/io/describe.hpp"
 
 namespace isojam {
-
-/// Ranges of numbers in records and checkpoints: every finite number, and every count that a double represents exactly.
-inline constexpr Range any_number{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
-inline constexpr Range count_range{0, 9007199254740992};
 
 // These functions convert the numbers of pairs, the work of minimisations, and rearrangements to and from JSON, for
 // records and checkpoints. Each read_… function throws InputError if the JSON does not have the form that to_json()

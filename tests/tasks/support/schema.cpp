@@ -17,8 +17,12 @@ Json schema(const std::string& name) {
 }
 
 std::string violations(const std::string& schema_name, const Json& document) {
+  return violations_of(schema(schema_name), document);
+}
+
+std::string violations_of(const Json& schema, const Json& document) {
   using Adapter = valijson::adapters::NlohmannJsonAdapter;
-  const auto plain_schema = nlohmann::json::parse(schema(schema_name).dump());
+  const auto plain_schema = nlohmann::json::parse(schema.dump());
   const auto plain_document = nlohmann::json::parse(document.dump());
   valijson::Schema compiled;
   valijson::SchemaParser(valijson::SchemaParser::kDraft7).populateSchema(Adapter(plain_schema), compiled);

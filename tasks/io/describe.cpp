@@ -1,0 +1,158 @@
+#include "tasks/io/describe.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isojam {
+namespace {
+
+constexpr std::array<std::string_view, 2> not_finite{"infinite", "not a number"};
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+template <class... Cases>
+decltype(auto) match(const MemberRef& member, Cases... cases) {
+  return std::visit(Overloaded{std::move(cases)...}, static_cast<const MemberRef::variant&>(member));
+}
+
+// ---- Writing --------------------------------------------------------------------------------------------------------
+Json value_of(const MemberRef& member) {
+  return match(
+      member, [](const double* value) { return Json(*value); }, [](const bool* value) { return Json(*value); },
+      [](const std::string* value) { return Json(*value); }, [](const Integer& value) { return Json(value.get()); },
+      [](const Choice& value) { return Json(value.names[value.get()]); },
+      [](const Nested& object) {
+        Fields fields;
+        object.describe(fields);
+        return written(fields);
+      },
+      [](const Many& list) {
+        Json json = Json::array();
+        for (std::size_t k = 0; k < list.size(); ++k) json.push_back(value_of(list.at(k)));
+        return json;
+      },
+      [](const Maybe& value) { return value.has() ? value_of(value.value()) : Json(nullptr); },
+      [](const Custom& value) { return value.write(); });
+}
+
+void write_field(Json& object, const FieldEntry& field, const MemberRef& member) {
+  if (const auto* const number = std::get_if<double*>(&member)) return put_number(object, field.key, **number);
+  if (const auto* const maybe = std::get_if<Maybe>(&member)) {
+    if (maybe->has()) return write_field(object, field, maybe->value());
+    if (maybe->reason) put_absent(object, field.key, *maybe->reason);
+    return;
+  }
+  auto json = value_of(member);
+  if (std::holds_alternative<Custom>(member) && json.is_null()) return;
+  if (field.presence == Presence::if_true && json == false) return;
+  object[field.key] = std::move(json);
+}
+
+// ---- Reading --------------------------------------------------------------------------------------------------------
+double read_number(const JsonPlace& place, const FieldEntry& field) {
+  return place.number(field.allowed.value_or(any_number));
+}
+
+std::int64_t read_integer(const JsonPlace& place, const FieldEntry& field, double most) {
+  auto range = field.allowed.value_or(count_range);
+  range.high = std::min(range.high, most);
+  return place.integer(range);
+}
+
+void read_list(const JsonPlace& place, const FieldEntry& field, const Many& list);
+
+/// Reads a value that is not null.
+void read_value(const JsonPlace& place, const FieldEntry& field, const MemberRef& member) {
+  match(
+      member, [&](double* value) { *value = read_number(place, field); },
+      [&](bool* value) { *value = place.boolean(); }, [&](std::string* value) { *value = place.text(); },
+      [&](const Integer& value) { value.set(read_integer(place, field, value.most)); },
+      [&](const Choice& value) { value.set(place.choice(value.names)); },
+      [&](const Nested& object) {
+        Fields fields;
+        object.describe(fields);
+        read_into(place, fields);
+      },
+      [&](const Many& list) { read_list(place, field, list); },
+      [&](const Maybe& value) { read_value(place, field, value.value()); },
+      [&](const Custom& value) { value.read(place); });
+}
+
+void read_list(const JsonPlace& place, const FieldEntry& field, const Many& list) {
+  const auto count = place.expect_list("a list");
+  if (list.length && count != *list.length)
+    place.refuse("the list has the wrong length", "a list of " + std::to_string(*list.length));
+  list.resize(count);
+  for (std::size_t k = 0; k < count; ++k) place.attempt([&] { read_value(place.at(k), field, list.at(k)); });
+}
+
+double not_a_finite_number(const JsonPlace& object, const FieldEntry& field) {
+  return object.at(field.key + "_reason").choice(not_finite) == 0 ? std::numeric_limits<double>::infinity()
+                                                                  : std::numeric_limits<double>::quiet_NaN();
+}
+
+void read_field(const JsonPlace& object, const FieldEntry& field) {
+  const auto place = object.at(field.key);
+  if (field.presence == Presence::if_true && place.value() != true) place.not_accepted("true");
+  if (!place.value().is_null()) return read_value(place, field, field.member);
+  if (auto* const* number = std::get_if<double*>(&field.member); number && !field.finite_only) {
+    **number = not_a_finite_number(object, field);
+    return;
+  }
+  const auto* const maybe = std::get_if<Maybe>(&field.member);
+  if (!maybe || !maybe->reason) return read_value(place, field, field.member);
+  *maybe->reason = object.at(field.key + "_reason").text();
+  maybe->clear();
+  if (std::find(not_finite.begin(), not_finite.end(), *maybe->reason) == not_finite.end()) return;
+  const MemberRef value = maybe->value();
+  if (auto* const* number = std::get_if<double*>(&value)) {
+    **number = not_a_finite_number(object, field);
+  } else {
+    maybe->clear();
+  }
+}
+
+bool can_be_absent(const FieldEntry& field) {
+  const auto* const maybe = std::get_if<Maybe>(&field.member);
+  return field.presence != Presence::always || (maybe && !maybe->reason);
+}
+
+bool can_be_null(const FieldEntry& field) {
+  const auto* const maybe = std::get_if<Maybe>(&field.member);
+  return maybe ? maybe->reason != nullptr : std::holds_alternative<double*>(field.member) && !field.finite_only;
+}
+
+}  // namespace
+
+Json written(const Fields& fields) {
+  Json object = Json::object();
+  for (const auto& field : fields.list) write_field(object, field, field.member);
+  return object;
+}
+
+void read_into(const JsonPlace& place, const Fields& fields, Missing missing) {
+  place.expect_object("an object");
+  std::vector<std::string> reasons;
+  std::vector<std::string_view> known;
+  for (const auto& field : fields.list) {
+    known.emplace_back(field.key);
+    if (can_be_null(field)) reasons.push_back(field.key + "_reason");
+  }
+  known.insert(known.end(), reasons.begin(), reasons.end());
+  const auto new_name = [&](std::string_view key) {
+    for (const auto& [before, now] : fields.renamed)
+      if (before == key) return now;
+    return std::string();
+  };
+  place.expect_keys(known, new_name);
+  for (const auto& field : fields.list) {
+    if (place.has(field.key) || (missing == Missing::refused && !can_be_absent(field)))
+      place.attempt([&] { read_field(place, field); });
+  }
+}
+
+void read_into(const JsonPlace& value, const FieldEntry& entry) { read_value(value, entry, entry.member); }
+
+}  // namespace isojam

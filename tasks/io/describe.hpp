@@ -1,0 +1,294 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "tasks/io/place.hpp"
+
+// One description per field. Beside a struct whose members are fields of a file stands one function:
+//
+//   struct Bins { long below = 0; std::vector<long> counts; };
+//
+//   inline void describe(Fields& field, Bins& bins) {
+//     field.type("bins", "Histogram of gaps, of forces or of angles.");
+//     field("below", bins.below, "Number of values below the first bin.");
+//     field("counts", bins.counts, "Number of values in each bin.");
+//   }
+//
+// From it follow written(bins), read<Bins>(place) and fields_of<Bins>(), and from the fields the schema, the page of
+// fields, the columns of tables and the quantities of a measure (tasks/io/fields.hpp). The order of the fields is that
+// of the file. A member may be a number, a bool, a text, an enumerator with a name, a Reasoned value, another described
+// struct, an optional of one of these (absent in the file if it has no value), a list of these, or a Custom value.
+
+namespace isojam {
+
+inline constexpr Range any_number{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+inline constexpr Range not_negative{0, std::numeric_limits<double>::max()};
+/// Counts that a double represents exactly.
+inline constexpr Range count_range{0, 9007199254740992};
+
+/// A value, or the reason why there is none. In a file: the value, or null and the field with the ending `_reason`.
+template <class T = double>
+struct Reasoned {
+  std::optional<T> value = std::nullopt;
+  std::string reason = {};
+};
+/// The value with the reason that counts if there is none.
+template <class T>
+Reasoned<T> reasoned(std::optional<T> value, std::string_view reason) {
+  if (value) return {std::move(value), ""};
+  return {std::nullopt, std::string(reason)};
+}
+
+/// Quantities with a common table.
+struct QuantityGroup {
+  std::string_view name;     ///< title of the table
+  std::string_view meaning;  ///< one sentence about the quantities, printed below the title
+
+  friend constexpr bool operator==(const QuantityGroup& a, const QuantityGroup& b) { return a.name == b.name; }
+};
+
+/// What tables add to a field that is a quantity.
+struct Column {
+  std::string_view name;  ///< name in tables: the symbol of the paper, if there is one
+  QuantityGroup group;    ///< the table of main_group is the first one
+  std::string_view latex;
+  bool proportion = false;  ///< true if each value is 0 or 1, so that the mean is a proportion
+  /// smallest number of kinds of particles for which a packing has the quantity
+  int kinds = 1;
+  bool cohesive = false;  ///< true if only packings with cohesion at zero pressure have the quantity
+};
+
+class Fields;
+template <class T>
+concept Described = std::is_class_v<T> && requires(Fields& fields, T& object) {
+  describe(fields, object);
+};
+
+// ---- References to members, by kind. They are valid as long as the described object. ------------------------------
+struct MemberRef;
+struct Integer {
+  std::function<std::int64_t()> get;
+  std::function<void(std::int64_t)> set;
+  double most = 0;
+};
+struct Choice {
+  std::span<const std::string_view> names;
+  std::function<std::size_t()> get;
+  std::function<void(std::size_t)> set;
+};
+struct Nested {
+  std::function<void(Fields&)> describe;
+};
+struct Many {
+  std::function<std::size_t()> size;
+  std::function<void(std::size_t)> resize;
+  std::function<MemberRef(std::size_t)> at;
+  std::function<MemberRef()> example;  ///< an element with default values
+  std::optional<std::size_t> length;
+};
+struct Maybe {
+  std::function<bool()> has;
+  std::function<MemberRef()> value;  ///< makes a value if there is none
+  std::function<void()> clear;
+  std::function<MemberRef()> example;  ///< a value with default values
+  std::string* reason = nullptr;       ///< of a Reasoned value
+};
+/// A value that no struct describes, for example a choice between a number and a list. It has its own schema.
+struct Custom {
+  std::function<Json()> write;  ///< null if the field is absent
+  std::function<void(const JsonPlace&)> read;
+  Json schema;
+  std::string kind;  ///< the allowed values in words, for the page of fields
+};
+
+struct MemberRef : std::variant<double*, bool*, std::string*, Integer, Choice, Nested, Many, Maybe, Custom> {
+  using variant::variant;
+};
+
+enum class Presence : std::uint8_t {
+  always,    ///< a file without the field is refused
+  optional,  ///< if a file lacks the field, it keeps the value of a default-constructed object
+  if_true,   ///< written only if the bool is true
+};
+
+/// All that is known of a field. Its functions can be chained behind the call that adds it.
+struct FieldEntry {
+  std::string key, meaning;  ///< the meaning is a sentence in Markdown; empty if the type of the field has one
+  MemberRef member;
+  std::string unit_name = {};            ///< empty if the meaning states it or the field is a pure number
+  std::optional<Range> allowed = {};     ///< by default any number, and integers from 0 to 2^53
+  Presence presence = Presence::always;  ///< an std::optional is always optional
+  bool finite_only = false;              ///< true if the number is never infinite or NaN, and so never null
+  bool apart = false;                    ///< true if a record has the field among its details
+  Column quantity = {};                  ///< without name if tables do not have it
+
+  FieldEntry& unit(std::string_view name) { return unit_name = name, *this; }
+  FieldEntry& range(const Range& range) { return allowed = range, *this; }
+  FieldEntry& optional() { return presence = Presence::optional, *this; }
+  FieldEntry& if_true() { return presence = Presence::if_true, *this; }
+  FieldEntry& finite() { return finite_only = true, *this; }
+  FieldEntry& detail() { return apart = true, *this; }
+  FieldEntry& column(const Column& column) { return quantity = column, *this; }
+};
+
+template <class T>
+MemberRef ref_to(T& member);
+
+/// The fields of one object, in the order of the file.
+class Fields {
+ public:
+  /// Names a type that several fields have, with its meaning.
+  void type(std::string_view name, std::string_view meaning) {
+    type_name = name;
+    type_meaning = meaning;
+  }
+  /// Adds a field.
+  template <class T>
+  FieldEntry& operator()(std::string_view key, T& member, std::string_view meaning) {
+    return list.emplace_back(FieldEntry{std::string(key), std::string(meaning), ref_to(member)});
+  }
+  /// Adds a field whose fields `describe` adds, for a struct whose description needs more than the object.
+  FieldEntry& nested(std::string_view key, std::function<void(Fields&)> describe, std::string_view meaning) {
+    return list.emplace_back(FieldEntry{std::string(key), std::string(meaning), Nested{std::move(describe)}});
+  }
+  FieldEntry& custom(std::string_view key, Custom value, std::string_view meaning) {
+    return list.emplace_back(FieldEntry{std::string(key), std::string(meaning), std::move(value)});
+  }
+
+  std::string type_name, type_meaning;
+  std::vector<FieldEntry> list;
+  /// The error for the old name of a key suggests the new one.
+  std::vector<std::pair<std::string, std::string>> renamed;
+};
+
+// ---- Writing and reading --------------------------------------------------------------------------------------------
+/// The fields of a default-constructed object, with references into it. The object lives as long as the program; it
+/// must not be changed.
+template <class T>
+Fields fields_of() {
+  static T example{};
+  Fields fields;
+  describe(fields, example);
+  return fields;
+}
+
+Json written(const Fields& fields);
+/// The JSON of a described object.
+template <Described T>
+Json written(const T& object) {
+  Fields fields;
+  // One describe() serves reading and writing. Writing changes nothing.
+  describe(fields, const_cast<T&>(object));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+  return written(fields);
+}
+
+enum class Missing : bool { refused, kept };
+
+/// Reads into the described object, with every bit. Throws InputError, or notes one for each wrong field if the place
+/// collects them. The error has the file, the JSON pointer and the allowed values. Keys that the description does not
+/// have are refused. With Missing::kept, fields that are absent keep their values.
+void read_into(const JsonPlace& place, const Fields& fields, Missing missing = Missing::refused);
+template <Described T>
+void read_into(const JsonPlace& place, T& object, Missing missing = Missing::refused) {
+  Fields fields;
+  describe(fields, object);
+  read_into(place, fields, missing);
+}
+template <Described T>
+T read(const JsonPlace& place) {
+  T object{};
+  read_into(place, object);
+  return object;
+}
+/// Reads a whole document, and throws one InputError with all errors.
+template <Described T>
+T read_document(const Json& document, const std::string& file) {
+  Problems problems;
+  T object{};
+  const JsonPlace place(document, file, "", &problems);
+  place.attempt([&] { read_into(place, object); });
+  problems.refuse_any(document);
+  return object;
+}
+/// Reads the value of one field, whose name is that of `entry`.
+void read_into(const JsonPlace& value, const FieldEntry& entry);
+
+// ---- Kinds of members -----------------------------------------------------------------------------------------------
+namespace kinds {
+
+template <class T>
+MemberRef example_of() {
+  static T example{};
+  return ref_to(example);
+}
+
+template <class T>
+struct Kind {
+  static MemberRef of(T& member) requires std::integral<T> {
+    return Integer{[&member] { return static_cast<std::int64_t>(member); },
+                   [&member](std::int64_t value) { member = static_cast<T>(value); },
+                   static_cast<double>(std::numeric_limits<T>::max())};
+  }
+  static MemberRef of(T& member) requires NamedEnum<T> {
+    return Choice{all_names<T>,
+                  [&member] {
+                    std::size_t k = 0;
+                    while (all_of<T>[k] != member) ++k;
+                    return k;
+                  },
+                  [&member](std::size_t k) { member = all_of<T>[k]; }};
+  }
+  static MemberRef of(T& member) requires Described<T> {
+    return Nested{[&member](Fields& fields) { describe(fields, member); }};
+  }
+};
+template <class T>
+struct Kind<std::vector<T>> {
+  static MemberRef of(std::vector<T>& member) {
+    return Many{[&member] { return member.size(); }, [&member](std::size_t size) { member.resize(size); },
+                [&member](std::size_t k) { return ref_to(member[k]); }, example_of<T>, std::nullopt};
+  }
+};
+template <class T, std::size_t n>
+struct Kind<std::array<T, n>> {
+  static MemberRef of(std::array<T, n>& member) {
+    return Many{[] { return n; }, [](std::size_t) {}, [&member](std::size_t k) { return ref_to(member[k]); },
+                example_of<T>, n};
+  }
+};
+template <class T>
+Maybe maybe(std::optional<T>& value, std::string* reason) {
+  return {[&value] { return value.has_value(); }, [&value] { return ref_to(value ? *value : value.emplace()); },
+          [&value] { value.reset(); }, example_of<T>, reason};
+}
+template <class T>
+struct Kind<std::optional<T>> {
+  static MemberRef of(std::optional<T>& member) { return maybe(member, nullptr); }
+};
+template <class T>
+struct Kind<Reasoned<T>> {
+  static MemberRef of(Reasoned<T>& member) { return maybe(member.value, &member.reason); }
+};
+
+}  // namespace kinds
+
+template <class T>
+MemberRef ref_to(T& member) {
+  if constexpr (std::is_same_v<T, double> || std::is_same_v<T, bool> || std::is_same_v<T, std::string>) {
+    return &member;
+  } else {
+    return kinds::Kind<T>::of(member);
+  }
+}
+
+}  // namespace isojam
