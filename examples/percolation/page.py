@@ -156,10 +156,13 @@ def tension(data):
 
 # Sentences of README.md that follow from the data only as long as these functions are true.
 CLAIMS = {
-    "None of these packings is a crystal.": lambda data: all("crystalline" not in r["flags"] for r in cohesive(data)),
+    "none of these packings is a crystal": lambda data: all("crystalline" not in r["flags"] for r in cohesive(data)),
     "Random bonds percolate at a smaller Z_ff:": lambda data: all(
         threshold_of(all_of_size(data, n), m, True)["high"] < threshold_of(all_of_size(data, n), m)["low"]
         for n in (100, 200) for m in ("fit", "gap")),
+    "only tetrahedra keep some of these contacts": lambda data: all(
+        float(forgotten(data, n)) > 0.05 for n in (100, 200)) and all(
+        (e := difference_at(data, SOLIDS[0], n, None, AT))["mean"] > e["half_width"] for n in (100, 200)),
     "the changes are consistent with 0": lambda data: all(float(forgotten(data, n)) > 0.05 for n in (100, 200)),
     "Cohesive tetrahedra are hyperstatic": lambda data: all(
         found["mean"] - found["half_width"] - found["systematic"] > 12 for w in data.strengths("end", 100)

@@ -24,17 +24,15 @@ def main_table(data):
     rows = []
     for solid in SOLIDS:
         packings = data.untreated(solid, 100)
-        z, c, largest, order = (interval(estimate_of(values_at(packings, column, AT)))
-                                for column in ("Z_ff_fit", "C", "largest_fit", "Q6"))
-        rows.append([solid, "0", str(len(packings)), interval(estimate_of([r["phi"] for r in packings])), z, c, largest,
+        z, c, order = (interval(estimate_of(values_at(packings, column, AT))) for column in ("Z_ff_fit", "C", "Q6"))
+        rows.append([solid, "0", interval(estimate_of([r["phi"] for r in packings])), z, c,
                      share_text(packings, "winding_fit"), order])
         for w in SHOWN:
             packings = data.kept(solid, 100, w)
-            rows.append([solid, strength_text(w), str(len(packings)), interval(mean(packings, "phi_0")),
+            rows.append([solid, strength_text(w), interval(mean(packings, "phi_0")),
                          interval(mean(packings, "Z_ff_fit")), interval(constraints(packings)),
-                         interval(mean(packings, "largest_fit")), share_text(packings, "winding_fit"),
-                         interval(mean(packings, "Q6"))])
-    return table(["solid", "w", "packings", "φ_0 or φ_J", "Z_ff", "C", "largest cluster / N", "percolate", "Q6"], rows)
+                         share_text(packings, "winding_fit"), interval(mean(packings, "Q6"))])
+    return table(["solid", "w", "φ_0 or φ_J", "Z_ff", "C", "percolate", "Q6"], rows)
 
 
 def limits_text(found):

@@ -299,7 +299,7 @@ def percolation_numbers(rows, pooled, size):
     left, left_error = difference(rows, "tetrahedron", 100)
     undetected = max(difference(rows, s, n)[1] for s in SOLIDS[1:] for n in (100, 200))
     (c, c_error), *others = (constraints_at_zero_pressure(rows, s) for s in SOLIDS)
-    return [("reference", 1, 0), ("Z_ff without cohesion, tetrahedron", without[0], 0.0051),
+    return [("Z_ff without cohesion, tetrahedron", without[0], 0.0051),
             ("Z_ff, tetrahedron", kept[0], 0.0051), ("Z_ff without cohesion, icosahedron", without[2], 0.0051),
             ("Z_ff, icosahedron", kept[2], 0.0051), ("threshold", real, 0.02), ("its error", error, 0.03),
             ("threshold of random bonds, tetrahedron", random[0], 0.03),
