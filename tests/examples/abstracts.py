@@ -1,10 +1,7 @@
 """Recomputes the numbers of the abstracts of examples/paper, rigidity and percolation with code of its own.
 
-usage: abstracts.py README.md DATA.json...                       # from data files
-       abstracts.py README.md --results ISOJAM DIRECTORY...      # from records and exported contacts
-
-Prints one line for each number of the abstract: its value on the page, the recomputed value, and the allowed
-difference. The exit code is 1 if a number differs by more. C by trough has a larger allowed difference than others,
+compared() gives one line for each number of the abstract: its value on the page, the recomputed value, and the allowed
+difference. C by trough has a larger allowed difference than others,
 because the trough is found by another method: the smallest number of angles in a sliding window of 0.4 decades.
 """
 
@@ -13,7 +10,6 @@ import json
 import pathlib
 import re
 import subprocess
-import sys
 
 import numpy
 from scipy import optimize, stats
@@ -65,46 +61,20 @@ def from_results(isojam, directories):
 
 def row_of(record, varied):
     spec, states = record["spec"], record["states"]
-    row = {"solid": spec["solid"], "particles": spec["particles"], "replicate": spec["replicate"], "varied": varied,
-           "phi_j": record["phi_j"]["phi_j"], "fit_window": spec["protocol"]["fit_window"],
-           "setting": {key: spec["protocol"][key] for key in (
-               "target_before_relaxation", "consolidation_step", "consolidation_evaluations")}}
-    row["states"] = {"phi": [s["phi"] for s in states], "Z": [s["contacts"]["Z"] for s in states],
-                     "E": [s["energy_per_particle"] for s in states],
-                     "C": [s["contacts"]["C"] for s in states],
-                     "C_trough": [s["contacts"].get("trough", {}).get("C") for s in states]}
-    row["states"]["floppy_trough"] = [s.get("rigidity", {}).get("trough", {}).get("floppy") for s in states]
-    modes = [s.get("prestress", {}).get("modes", {}) for s in states]
-    if any(modes):
-        row["states"]["prestress_10"] = [m["prestress_by_threshold"][2]["modes"] if m else None for m in modes]
-    return row
+    return {"solid": spec["solid"], "particles": spec["particles"], "varied": varied,
+            "states": {"Z": [s["contacts"]["Z"] for s in states]}}
 
 
 def add_contacts(pooled, row, isojam, directory, name):
     export = subprocess.run([isojam, "export", directory, name, "--format", "contacts"], check=True,
                             capture_output=True, text=True).stdout
     contacts = list(csv.DictReader(export.splitlines()))
-    angles = {angle: [max(float(line[angle]), 1e-12) for line in contacts] for angle in BETWEEN}
-    if row["particles"] == 100:
-        row["states"]["floppy_normals"] = [600 - rank_of_normals(contacts, 100)]
     here = pooled.setdefault((row["solid"], row["particles"]), {"packings": 0, "apart": False})
     here["packings"] += 1
-    for angle, values in angles.items():
+    for angle in BETWEEN:
+        values = [max(float(line[angle]), 1e-12) for line in contacts]
         counts, edges = numpy.histogram(numpy.log10(values), numpy.arange(-12, 0.65, 0.1))
         here[angle] = (edges, counts + here[angle][1] if angle in here else counts.astype(float))
-
-
-def rank_of_normals(contacts, particles):
-    """Rank of the matrix with one row for each contact: its force and torques on all particles, for the force 1."""
-    rows = numpy.zeros((len(contacts), particles, 6))
-    for row, line in zip(rows, contacts):
-        force, torque_a, torque_b = (numpy.array([float(line[f"{name}_{axis}"]) for axis in "xyz"])
-                                     for name in ("force", "torque_a", "torque_b"))
-        size = numpy.linalg.norm(force)
-        row[int(line["a"])] += numpy.append(force, torque_a) / size
-        row[int(line["b"])] += numpy.append(-force, torque_b) / size
-    # A state of self-stress is exact only up to the residual of the equilibrium, 1e-6.
-    return numpy.linalg.matrix_rank(rows.reshape(len(contacts), -1), tol=1e-4)
 
 
 def antimode(edges, counts, between):
@@ -348,15 +318,3 @@ def compared(readme, rows, pooled):
         lines.append(f"{name}: {page:g}, recomputed {'not' if value is None else f'{value:.5g}'} (± {allowed:g})"
                      f"{'  DIFFERS' if differs else ''}")
     return lines, wrong
-
-
-def main():
-    readme, *rest = sys.argv[1:]
-    rows, pooled = from_results(rest[1], rest[2:]) if rest[0] == "--results" else from_files(rest)
-    lines, wrong = compared(readme, rows, pooled)
-    print("\n".join(lines))
-    sys.exit(1 if wrong else 0)
-
-
-if __name__ == "__main__":
-    main()
