@@ -265,7 +265,7 @@ polyhedra:
 	$(PYTHON) -B tests/polyhedra/jam_test.py $(BUILD)/isojam --all
 	$(PYTHON) -B tests/polyhedra/dodecahedra.py $(BUILD)/isojam
 
-# The cost of following equilibria towards jamming: the tables of docs/equilibria.md.
+# The cost of following equilibria towards jamming: the tables of docs/accuracy.md.
 equilibria:
 	$(call install,$(TEST_PACKAGES))
 	$(CONFIGURE) -DISOJAM_TESTS=ON

@@ -10,7 +10,7 @@ namespace {
 
 /// CPU seconds of a replicate with N = 100 and the default step lengths. `compression` is for at most 500 evaluations
 /// for a state, `decompression` for Δφ = 0.01. The latter is proportional to Δφ^−power. Fitted to studies of the
-/// examples, see docs/accuracy.md.
+/// examples, see tests/tasks/manifest/cost_test.cpp.
 struct JamLaw {
   double compression, decompression, power;
 };
