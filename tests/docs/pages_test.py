@@ -78,6 +78,14 @@ class Links(unittest.TestCase):
             self.assertEqual(len(breaking(text)), 1, text)
         self.assertEqual(breaking("1. one\n   more\n2. two\n\n> a\n> b\n\n```\n<!-- c -->\nd\n> e\n```\n"), [])
 
+    def test_tables_and_captions_are_short(self):
+        for page in pages(SOURCE):
+            text = re.sub(r"<!--.*?-->", "", page.read_text(encoding="utf-8"))
+            for row in re.findall(r"^\|[-| :]+\|$", text, re.M):
+                self.assertLessEqual(row.count("|") - 1, 7, page)
+            for caption in re.findall(r"^\*\*(?:Figure|Table) \d.*?\n\n", text, re.M | re.S):
+                self.assertLessEqual(len(caption.split()), 80, f"{page}: {caption}")
+
     def test_indexes_are_complete(self):
         def linked(page):
             return {(page.parent / target.partition("#")[0]).resolve() for _, target in
