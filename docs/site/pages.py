@@ -6,10 +6,10 @@ import unicodedata
 
 
 def pages(root):
-    """README.md and its companions, docs/, packaging and the pages of examples."""
+    """README.md and its companions, docs/ and the pages of examples."""
     root = pathlib.Path(root)
     return [root / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")] + sorted(
-        [*root.glob("docs/*.md"), *root.glob("docs/packaging/*.md"), *root.glob("examples/**/*.md")])
+        [*root.glob("docs/*.md"), *root.glob("examples/**/*.md")])
 
 
 def lines_of(text, fences=False):
