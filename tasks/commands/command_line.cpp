@@ -30,8 +30,13 @@ std::vector<ExitCodeDescription> exit_codes() {
           {ExitCode::interrupted, "interrupted; repeat the command to resume"}};
 }
 
-std::string exit_codes_text() {
-  std::string text = "Exit codes:\n";
+std::string help_footer() {
+  std::string text =
+      "Examples:\n"
+      "  isojam run examples/01-four-solids/manifest.json\n"
+      "  isojam aggregate results/four-solids --all\n"
+      "  isojam report results/four-solids\n\n"
+      "Exit codes:\n";
   for (const auto& [code, meaning] : exit_codes())
     text += fmt::format("  {:>2}: {}\n", static_cast<int>(code), meaning);
   return text;
@@ -288,7 +293,7 @@ std::optional<ExitCode> parse_command_line(int argc, char** argv, std::span<cons
   app.require_subcommand(1);
   app.fallthrough();
   app.set_version_flag("--version", version_text());
-  app.footer(exit_codes_text());
+  app.footer(help_footer());
   add_console_options(Options(app), session.console);
   for (const AddCommand add : commands) add(app, session);
   session.program = describe_program(app);

@@ -262,6 +262,18 @@ bool is_of(std::string_view group, const std::vector<Measure>& measures) {
   });
 }
 
+/// Lines that explain what a new user sees in the first table.
+Cells notes_about(const Table& table) {
+  const auto any = [&](int Row::*count) {
+    return std::any_of(table.rows.begin(), table.rows.end(), [&](const Row& row) { return row.*count > 0; });
+  };
+  Cells notes;
+  if (any(&Row::excluded)) notes.emplace_back("all: means that include the excluded replicates");
+  if (any(&Row::flagged))
+    notes.emplace_back("flagged: replicates with a warning, see \"isojam status DIR\" and docs/results.md");
+  return notes;
+}
+
 /// Title and meaning of a table in one line.
 std::string line_about(const LaidOut& laid, const Table& table) {
   const auto title = laid.name == "differences" ? difference_title(table) : std::string(laid.name);
@@ -285,11 +297,11 @@ std::string to_text(const Table& table, View view, const TextOptions& options) {
     if (!std::exchange(first, false)) text += '\n' + wrapped(line_about(laid, table), options.columns) + '\n';
     text += fitted(laid.lines, laid.keys, options.columns);
   }
-  if (!others.empty() && !options.how_to_see_all.empty())
-    text += '\n' +
-            wrapped(fmt::format("{} prints more tables: {}", options.how_to_see_all, joined(others, ", ")),
-                    options.columns) +
-            '\n';
+  if (options.how_to_see_all.empty()) return text;
+  auto notes = notes_about(table);
+  if (!others.empty())
+    notes.push_back(fmt::format("{} prints more tables: {}", options.how_to_see_all, joined(others, ", ")));
+  for (const auto& note : notes) text += (&note == notes.data() ? "\n" : "") + wrapped(note, options.columns) + '\n';
   return text;
 }
 
