@@ -14,8 +14,8 @@ namespace {
 /// Largest number of steps in a decompression that may fail or end a solution branch.
 constexpr int max_halvings = 4;
 
-/// Largest number of evaluations in a step of hasty compression.
-constexpr long hasty_evaluations = 50;
+/// Smallest values of MinimiseOptions::residual and MinimiseOptions::unjammed_energy in compression.
+constexpr double compression_residual = 1e-3, compression_unjammed_energy = 1e-14;
 
 /// Equilibria are followed if φ − φ_J is below this. Farther away all contacts are soft, and Newton's method converges
 /// by itself.
@@ -67,11 +67,9 @@ class StrainStep {
   const JamStep& relax(Packing& packing, PackingEnergy& energy) {
     MinimiseOptions options = minimiser();
     if (progress_.stage == JamStage::consolidation) {
-      options.residual = std::max(options.residual, options_.compression.residual);
-      options.unjammed_energy = std::max(options.unjammed_energy, options_.compression.unjammed_energy);
+      options.residual = std::max(options.residual, compression_residual);
+      options.unjammed_energy = std::max(options.unjammed_energy, compression_unjammed_energy);
       options.max_evaluations = options_.compression.evaluations;
-      if (options_.compression.relaxation == Consolidation::hasty)
-        options.max_evaluations = std::min(options.max_evaluations, hasty_evaluations);
       options.method = Method::lbfgs;
     }
     return append(packing, minimise(packing, energy, options, stop_), energy);
@@ -216,13 +214,6 @@ class StrainStep {
     if (!ends_branch && !is_state(step.summary)) return failed(first);
     if (!first && !ends_branch && last_state().energy_per_particle > 0)
       result_.path.back().rearrangement = rearrangement(progress_.packing, last_state(), next, step);
-    const double strain = progress_.packing.density() - next.density();
-    if ((ends_branch || is_rearranged(result_.path.back())) &&
-        strain > options_.decompression.event_resolution * distance() && options_.decompression.event_resolution > 0) {
-      result_.path.back().rearrangement.reset();  // the step is discarded
-      progress_.step_fraction = strain / distance() / 2;
-      return;
-    }
     if (ends_branch) return lose_branch(std::move(next));
     if (!first) progress_.step_fraction = std::min(options_.decompression.step_fraction, 1.5 * progress_.step_fraction);
     // A packing that becomes denser as its pressure decreases has found a denser branch. Energies of the earlier branch

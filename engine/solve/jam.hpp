@@ -14,19 +14,6 @@
 
 namespace isojam {
 
-/// Setting for the relaxation of the states during compression. Its names are the values of the key `consolidation` in
-/// manifests. φ_J of tetrahedra depends on this setting, see examples/02-strain-step.
-enum class Consolidation {
-  /// Relaxed compression: L-BFGS relaxes each state with at most Compression::evaluations evaluations.
-  relaxed,
-  /// Hasty compression: L-BFGS relaxes each state with at most 50 evaluations. For tetrahedra with N = 64, the
-  /// confidence interval of φ_J then contains the paper's φ_J (examples/02-strain-step).
-  hasty
-};
-template <>
-inline constexpr std::array enum_names<Consolidation>{EnumName{Consolidation::relaxed, "relaxed"},
-                                                      EnumName{Consolidation::hasty, "hasty"}};
-
 /// Quantity that is prescribed for each state of a decompression.
 enum class Control { density, pressure };
 template <>
@@ -67,22 +54,19 @@ struct Compression {
   ///   minimisation at the start of decompression can reduce E/N to less than half of target_energy. Compression then
   ///   continues.
   /// - true: each strain step is halved, at most six times, until E/N before relaxation is at most target_energy.
-  ///   Compression ends at the first state that has contacts and whose residual is at most `residual`.
+  ///   Compression ends at the first state that has contacts and whose residual is at most 1e-3.
   bool target_before_relaxation = false;
   /// Upper limit of φ. The cell must be so large that no particle can touch two images of another particle at this
   /// density (is_legal() in packing/cell/periodic_cell.hpp). Crystals can exceed φ = 0.9 before they reach the target
   /// energy.
   double max_density = 0.93;
-  /// L-BFGS relaxes a state until the residual is at most this value. The relaxation ends earlier if E/N is below
-  /// unjammed_energy, if the criterion minimise.energy_change is satisfied, or after the largest number of evaluations.
-  /// Decompression begins with a minimisation of the last state to an equilibrium.
-  double residual = 1e-3;
-  double unjammed_energy = 1e-14;  ///< E/N below which a state that is not yet relaxed counts as unjammed
-  /// Largest number of evaluations for a state. For the paper's four solids, the differences between φ_J with 500 and
-  /// with 2000 evaluations are not significant. For tetrahedra, 2000 are nevertheless recommended: their φ_J increases
-  /// by 0.005 ± 0.005 from 500 to 8000 evaluations (examples/02-strain-step).
+  /// Largest number of evaluations for a state. L-BFGS relaxes a state until the residual is at most 1e-3. The
+  /// relaxation ends earlier if E/N is below 1e-14, if the criterion minimise.energy_change is satisfied, or after this
+  /// number of evaluations. Decompression begins with a minimisation of the last state to an equilibrium. For the
+  /// paper's four solids, the differences between φ_J with 500 and with 2000 evaluations are not significant. For
+  /// tetrahedra, 2000 are nevertheless recommended: their φ_J increases by 0.005 ± 0.005 from 500 to 8000 evaluations
+  /// (examples/02-strain-step).
   int evaluations = 500;
-  Consolidation relaxation = Consolidation::relaxed;  ///< relaxation of the states
 };
 
 /// Options of decompression, the second stage: steps to lower densities, or to lower pressures, towards φ_J.
@@ -92,11 +76,7 @@ struct Decompression {
   /// After a failed step, the next step is half as long. Each successful step increases the fraction by a factor of
   /// 1.5, up to this value.
   double step_fraction = 0.35;
-  double longest_step = 0.05;  ///< largest decrease of φ in a step
-  /// A step that contains a rearrangement (is_rearranged() in rearrangement.hpp) is repeated at half its length, until
-  /// the step is shorter than this fraction of φ − φ_J. The density of the rearrangement is then known with this
-  /// resolution. With 0, no step is repeated for this reason.
-  double event_resolution = 0;
+  double longest_step = 0.05;     ///< largest decrease of φ in a step
   double final_distance = 0.004;  ///< decompression ends when φ − φ_J falls below this
   double fit_window = 0.02;       ///< states with φ − φ_J below this are used to fit φ_J
   /// Prescribed quantity. With Control::pressure, each step prescribes a lower pressure, and the volume of the cell
@@ -122,8 +102,7 @@ struct JamOptions {
   int max_steps = 400;                    ///< largest number of entries of `path`, both stages together
   CellShape cell = CellShape::isotropic;  ///< relaxation of the shape of the cell
   /// Options of the minimisations. In compression, the method is always L-BFGS, and Compression::evaluations replaces
-  /// max_evaluations. `residual` and `unjammed_energy` are also members of Compression; compression uses the larger
-  /// value.
+  /// max_evaluations. `residual` and `unjammed_energy` are there at least 1e-3 and 1e-14.
   MinimiseOptions minimise;
 };
 
@@ -166,7 +145,7 @@ struct JamStep {
   MinimiseSummary summary;                   ///< result of the minimisation of the state
   int descents = 0;  ///< number of saddles that settle() relaxed to reach this state; jam() leaves it 0
   /// difference from the state before; nullopt in compression, at the beginning of a solution branch, and for a step
-  /// that failed or was repeated, or in which a branch ended
+  /// that failed, or in which a branch ended
   std::optional<Rearrangement> rearrangement;
   /// True if the solution branch ended in this step of the decompression. Either the packing is unjammed, or this step
   /// and the step before it, which was twice as long, both ended with StopReason::budget.
@@ -209,7 +188,7 @@ struct Cycle {
 /// Result of a run of the protocol.
 struct JamResult {
   JamStatus status = JamStatus::not_called;  ///< reason for the end of the run
-  std::vector<JamStep> path;                 ///< all strain steps, including failed and repeated steps
+  std::vector<JamStep> path;                 ///< all strain steps, including failed steps
   /// Minimised packings of the last solution branch of the decompression, in the order of the steps. They are
   /// equilibria, unless minimise.energy_change is set: then they include packings whose minimisation ended with
   /// StopReason::energy_change.
@@ -235,8 +214,8 @@ struct JamProgress {
   /// packing from which the next step starts: the last minimised state, or the initial configuration
   Packing packing;
   JamStage stage = JamStage::consolidation;  ///< stage of the next step
-  /// Present value of the step fraction: at first Decompression::step_fraction. It is smaller after steps that failed,
-  /// were repeated or ended a solution branch.
+  /// Present value of the step fraction: at first Decompression::step_fraction. It is smaller after steps that failed
+  /// or ended a solution branch.
   double step_fraction = 0;
   /// Number of steps of the decompression that failed or ended a solution branch. Each of them halves the step
   /// fraction. The fifth ends the decompression.

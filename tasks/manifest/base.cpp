@@ -61,8 +61,6 @@ Json value_of(const std::string& word, const Field& field) {
 
 std::string unknown_parameter(const std::string& name) {
   const auto names = field_names();
-  const auto now = new_name(name);
-  if (!now.empty()) return fmt::format("parameter \"{}\" was renamed; use \"{}\"", name, now);
   return unknown_name("parameter", name, names, "\"none\" or ");
 }
 
@@ -88,6 +86,7 @@ std::optional<std::string> parse_part(const std::string& part, std::map<std::str
 
 Json read_base(const JsonPlace& place) {
   const auto names = field_names();
+  refuse_removed(place);
   place.expect_keys(names);
   if (place.value().empty()) place.refuse("the base is empty", "one or more swept parameters with their values");
   std::map<std::string, Json> values;

@@ -48,10 +48,9 @@ double jam_seconds(const ReplicateSpec& spec) {
   const auto& [compression, decompression, power] = law_of(spec.solid);
   const auto& first = spec.options.compression;
   const auto& second = spec.options.decompression;
-  const double evaluations = std::min<double>(first.evaluations, first.relaxation == Consolidation::hasty ? 50 : 1e9);
   const double size = spec.particles / law_particles;
   double up = compression * law_step / first.step * nearest::pow(size, compression_size_power);
-  up *= nearest::pow(std::min(evaluations, 16 * law_evaluations) / law_evaluations, evaluations_power);
+  up *= nearest::pow(std::min<double>(first.evaluations, 16 * law_evaluations) / law_evaluations, evaluations_power);
   up *= std::max(smallest_energy_factor, nearest::pow(first.target_energy / law_energy, energy_power));
   if (first.target_before_relaxation) up *= gentle;
   if (spec.options.cohesion.acts()) up *= cohesive;

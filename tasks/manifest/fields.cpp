@@ -52,14 +52,10 @@ constexpr std::array fields{
     field<&C::max_density>("max_density", positive_to(2)),
     field<&D::step_fraction>("step_fraction", {0, 1, true, true}),
     field<&D::longest_step>("longest_step", positive_to(1)),
-    field<&D::event_resolution>("event_resolution", {0, 1}),
     field<&D::final_distance>("final_distance", positive_to(1)),
     field<&D::fit_window>("fit_window", positive_to(1)),
     field<&P::max_steps>("max_steps", {1, 1e6}),
-    field<&C::residual>("consolidation_residual", positive_to(1)),
-    field<&C::unjammed_energy>("consolidation_energy", {0, 1}),
     field<&C::evaluations>("consolidation_evaluations", {1, 1e9}),
-    field<&C::relaxation>("consolidation", none),
     field<&D::control>("control", none),
     field<&P::cell>("cell", none),
     omitted_by_default(field<&Cohesion::strength>("cohesion.strength", {0, 1})),
@@ -69,21 +65,26 @@ constexpr std::array fields{
     field<&M::method>("method", none, Group::minimiser),
     field<&M::residual>("residual", positive_to(1), Group::minimiser),
     field<&M::energy_change>("energy_change", {0, 1}, Group::minimiser),
-    field<&M::unjammed_energy>("unjammed_energy", {0, 1}, Group::minimiser),
     field<&M::max_evaluations>("max_evaluations", {1, 1e9}, Group::minimiser),
-    field<&M::history>("history", {1, 1000}, Group::minimiser),
 };
 
-/// A key that an earlier version used, and its present name.
-struct Renamed {
-  std::string_view before, now;
+/// A parameter of version 0.1.0, and what to do without it.
+struct Removed {
+  std::string_view name, remedy;
 };
-constexpr std::array renamed{
-    Renamed{"approach", "step_fraction"},
-    Renamed{"passing_residual", "consolidation_residual"},
-    Renamed{"passing_energy", "consolidation_energy"},
-    Renamed{"passing_evaluations", "consolidation_evaluations"},
+constexpr std::string_view is_fixed = "delete it; its default is now the only value";
+constexpr std::array removed{
+    Removed{"consolidation", "use \"consolidation_evaluations\": 50 in place of \"hasty\", and delete \"relaxed\""},
+    Removed{"consolidation_residual", "use \"consolidation_evaluations\" to limit the relaxation"},
+    Removed{"event_resolution", "use a smaller \"step_fraction\""},
+    Removed{"consolidation_energy", is_fixed},
+    Removed{"unjammed_energy", is_fixed},
+    Removed{"history", is_fixed},
 };
+
+/// Methods that a manifest may choose. The engine has others for comparison (`isojam chart`).
+constexpr std::array methods{Method::multipliers, Method::newton, Method::lbfgs};
+constexpr std::array method_names{to_string(methods[0]), to_string(methods[1]), to_string(methods[2])};
 
 /// Name of the object in the group that has the parameter; otherwise the name of the parameter.
 std::string_view key_in_group(const Field& field) { return field.name.substr(0, field.name.find('.')); }
@@ -118,18 +119,32 @@ const Field* find_field(std::string_view name) {
   return found == fields.end() ? nullptr : found;
 }
 
-std::string_view new_name(std::string_view name) {
-  const auto found = std::find_if(renamed.begin(), renamed.end(), [&](const Renamed& r) { return r.before == name; });
-  return found == renamed.end() ? std::string_view() : found->now;
+void refuse_removed(const JsonPlace& place) {
+  for (const auto& [name, remedy] : removed)
+    place.read_if_any(std::string(name), [&, &text = remedy](const JsonPlace& key) {
+      key.refuse_with_remedy("the key was removed", std::string(text));
+    });
 }
 
 std::string allowed_values(const Field& field) {
   JamOptions options;
-  return std::visit([&]<class T>(const T*) { return allowed_option<T>(field.range); }, field.slot(options));
+  return std::visit(
+      [&]<class T>(const T*) {
+        if constexpr (std::is_same_v<T, Method>) return one_of(method_names);
+        return allowed_option<T>(field.range);
+      },
+      field.slot(options));
 }
 
 void read_field(const JsonPlace& place, const Field& field, JamOptions& options) {
-  std::visit([&](auto* value) { read_option(place, field.range, *value); }, field.slot(options));
+  std::visit(
+      [&]<class T>(T* value) {
+        if constexpr (std::is_same_v<T, Method>)
+          *value = methods[place.choice(method_names)];
+        else
+          read_option(place, field.range, *value);
+      },
+      field.slot(options));
 }
 
 Json field_value(const Field& field, JamOptions options) {
@@ -164,6 +179,7 @@ void read_group_fields(const JsonPlace& place, Group group, std::span<const std:
     if (members.empty()) names.push_back(key_in_group(field));
     members.push_back(field.name.substr(field.name.find('.') + 1));
   }
+  refuse_removed(place);
   place.expect_keys(names, elsewhere);
   for (const auto& field : fields) {
     if (field.group != group) continue;

@@ -20,7 +20,7 @@ inline constexpr std::array enum_names<Group>{EnumName{Group::protocol, "protoco
                                               EnumName{Group::minimiser, "minimiser"}};
 
 /// Pointer to the member of JamOptions that stores the value of a parameter.
-using Slot = std::variant<double*, int*, long*, bool*, Method*, Consolidation*, Control*, CellShape*, CohesionUntil*>;
+using Slot = std::variant<double*, int*, long*, bool*, Method*, Control*, CellShape*, CohesionUntil*>;
 
 /// A parameter of the engine that a manifest may set or sweep. Its default value is that of the member in JamOptions.
 struct Field {
@@ -47,8 +47,8 @@ std::span<const Field> all_fields();
 /// The parameter with this name; nullptr if there is none.
 const Field* find_field(std::string_view name);
 
-/// Present name of a parameter that an earlier version of isojam called `name`. Empty if no parameter had this name.
-std::string_view new_name(std::string_view name);
+/// Refuses parameters of version 0.1.0 that were removed, and states what to use instead.
+void refuse_removed(const JsonPlace& place);
 
 /// Text that describes the allowed values, such as "a number in (0, 1]".
 std::string allowed_values(const Field& field);

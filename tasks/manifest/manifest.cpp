@@ -64,17 +64,6 @@ std::string read_name(const JsonPlace& place) {
   return name;
 }
 
-/// Reports keys of an earlier version with their new names, so that they are not reported as unknown keys.
-void refuse_renamed(const JsonPlace& place) {
-  if (!place.value().is_object()) return;
-  for (const auto& item : place.value().items()) {
-    const auto now = new_name(item.key());
-    place.attempt([&] {
-      if (!now.empty()) place.at(item.key()).refuse_with_remedy("the key was renamed", fmt::format("use \"{}\"", now));
-    });
-  }
-}
-
 std::vector<Measure> default_measures() {
   std::vector<Measure> list;
   std::copy_if(all_measures.begin(), all_measures.end(), std::back_inserter(list),
@@ -104,7 +93,7 @@ auto read_sweep_list(const JsonPlace& place, const std::string& allowed, Read re
 void read_sweep(const JsonPlace& place, Manifest& manifest) {
   std::vector<std::string_view> names{"solid", "particles"};
   for (const auto& field : all_fields()) names.push_back(field.name);
-  refuse_renamed(place);
+  refuse_removed(place);
   place.expect_keys(names);
 
   place.read("solid", [&](const JsonPlace& list) {
@@ -165,7 +154,6 @@ Replicates read_replicates(const JsonPlace& place) {
 void read_group(const JsonPlace& root, const JsonPlace& place, Group group, Manifest& manifest) {
   std::vector<std::string_view> others;
   if (group == Group::protocol) others.emplace_back("by_solid");
-  refuse_renamed(place);
   read_group_fields(place, group, others, home_of_field, [&](const JsonPlace& value, const Field& field) {
     const std::string name(field.name);
     if (root.has("sweep") && root.at("sweep").has(name))
@@ -242,7 +230,6 @@ void check_together(const JsonPlace& root, const Manifest& manifest) {
 }
 
 void read_values(const JsonPlace& root, Manifest& manifest) {
-  refuse_renamed(root);
   root.expect_keys(keys, home_of_field);
   root.read_if_any("$schema", [](const JsonPlace& place) { place.text(); });
   root.read("name", [&](const JsonPlace& place) { manifest.name = read_name(place); });
@@ -265,10 +252,7 @@ void read_values(const JsonPlace& root, Manifest& manifest) {
   root.read("replicates", [&](const JsonPlace& place) { manifest.replicates = read_replicates(place); });
   root.read_if_any("keep_path", [&](const JsonPlace& place) { manifest.keep_path = place.boolean(); });
   root.read_if_any("exclude", [&](const JsonPlace& place) { manifest.exclude = read_exclude(place); });
-  root.read_if_any("base", [&](const JsonPlace& place) {
-    refuse_renamed(place);
-    manifest.base = read_base(place);
-  });
+  root.read_if_any("base", [&](const JsonPlace& place) { manifest.base = read_base(place); });
   root.read_if_any("start", [&](const JsonPlace& place) { manifest.start = read_start(place); });
   root.read_if_any(
       "modes", [&](const JsonPlace& place) { manifest.measuring.modes = static_cast<int>(place.integer(mode_range)); });

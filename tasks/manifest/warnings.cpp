@@ -104,14 +104,6 @@ void look_at_minimiser(const JamOptions& options, const std::vector<Flag>& exclu
                              to_string(minimise.method), minimise.residual, minimise.max_evaluations,
                              options.decompression.final_distance));
   }
-  for (const auto& [name, energy] : {std::pair("consolidation_energy", options.compression.unjammed_energy),
-                                     std::pair("unjammed_energy", minimise.unjammed_energy)}) {
-    if (energy < options.compression.target_energy) continue;
-    warnings.add(name, "",
-                 fmt::format("{} is not below target_energy {}: a state at the target would count as unjammed; "
-                             "decrease {}",
-                             energy, options.compression.target_energy, name));
-  }
 }
 
 /// Warns if the protocol cannot reach the density at which packings of this solid jam, or at which they have the target
@@ -154,16 +146,7 @@ void look_at_density(const JamOptions& options, const Known& solid, Warnings& wa
 void look_at_solid(const JamOptions& options, const Known& solid, Warnings& warnings) {
   const std::string name(to_string(solid.kind));
   look_at_density(options, solid, warnings);
-  const double last = solid.stiffness * nearest::pow(options.decompression.final_distance, 6);
-  // Multipliers estimate this energy themselves.
-  if (options.minimise.method != Method::multipliers && options.minimise.unjammed_energy >= last) {
-    warnings.add("unjammed_energy", name,
-                 fmt::format("{} is not below the E/N of {} packings at final_distance {}, which is about {:.1g}: they "
-                             "would count as unjammed; decrease unjammed_energy",
-                             options.minimise.unjammed_energy, name, options.decompression.final_distance, last));
-  }
-  if (solid.kind == SolidKind::tetrahedron && options.compression.relaxation == Consolidation::relaxed &&
-      options.compression.evaluations < relaxed_evaluations) {
+  if (solid.kind == SolidKind::tetrahedron && options.compression.evaluations < relaxed_evaluations) {
     warnings.add("consolidation_evaluations", name,
                  fmt::format("{} evaluations are too few for tetrahedra, which then jam at lower densities; use at "
                              "least {}",
@@ -255,13 +238,6 @@ void look_at_cohesion(const Manifest& manifest, const std::vector<OptionSet>& se
 /// Warns of parameters that a later stage or another parameter makes ineffective.
 void look_at_unused(const Manifest& manifest, const JamOptions& options, Warnings& warnings) {
   const JamOptions usual;
-  constexpr int hasty = 50;
-  if (options.compression.relaxation == Consolidation::hasty && options.compression.evaluations > hasty &&
-      options.compression.evaluations != usual.compression.evaluations) {
-    warnings.add(
-        "consolidation_evaluations", "",
-        fmt::format("{} has no effect: hasty compression uses at most {}", options.compression.evaluations, hasty));
-  }
   if (!manifest.start) return;
   for (const auto& field : all_fields()) {
     const bool is_initial = field.name == "initial_density";

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double curvature = 0.9;
 constexpr double first_displacement = 1e-3;
+constexpr std::size_t stored_corrections = 20;
 
 /// A step and the change of the gradient in this step.
 struct Correction {
@@ -53,7 +54,7 @@ MinimiseSummary minimise_lbfgs(Descent& descent) {
     if (!(product > 0)) continue;
     correction.inverse_product = 1 / product;
     memory.push_back(std::move(correction));
-    if (memory.size() > static_cast<std::size_t>(descent.options().history)) memory.pop_front();
+    if (memory.size() > stored_corrections) memory.pop_front();
   }
 }
 

@@ -35,7 +35,6 @@ struct MinimiseOptions {
   /// with contacts never counts as unjammed. Not used if the volume is free.
   double unjammed_energy = 1e-20;
   long max_evaluations = 20000;  ///< largest number of evaluations of energy and forces in one minimisation
-  int history = 20;              ///< number of pairs of steps and gradient changes that L-BFGS stores
   CellControl control{};         ///< free strains of the cell and load on the cell; by default the cell is fixed
 };
 

@@ -58,7 +58,6 @@ TEST(Cycles, WithoutAStateHaveNoValues) {
   options.minimise.method = Method::lbfgs;
   options.minimise.max_evaluations = 1;
   options.compression.target_before_relaxation = true;
-  options.compression.residual = 0.1;
   const JamResult result = jam(start_of(octahedra, 5, options), options);
   ASSERT_EQ(result.cycles.size(), 1U);
   EXPECT_FALSE(result.cycles[0].phi_j);

@@ -108,31 +108,6 @@ TEST(JamTest, AnUnjammedPackingIsCompressedAgain) {
   }
 }
 
-TEST(JamTest, RearrangementsAreLocatedOnRequest) {
-  JamOptions options;
-  const JamResult before = expanded(options);
-  ASSERT_EQ(before.status, JamStatus::jammed);
-  const JamProgress progress = misled(before, 4, options);  // every step except a short one looks like a rearrangement
-  options.decompression.event_resolution = 0.06;
-  const JamResult result = jam(progress, options);
-  const double from = before.states.back().density(), distance = distance_to_jamming(progress.result.path[0]);
-  ASSERT_GE(result.path.size(), 5U);
-  ASSERT_GE(result.states.size(), 2U);
-  const auto kept = static_cast<std::size_t>(result.state_steps[1]);
-  for (std::size_t k = 1; k <= kept; ++k) {
-    const JamStep& step = result.path[k];
-    const double strain = (from - step.density) / distance;
-    std::printf("step of %.3f Δφ, E/N %.2e, %s%s\n", strain, step.energy_per_particle,
-                to_string(step.summary.reason).data(), k == kept ? ", kept" : "");
-    EXPECT_NEAR(strain, 0.4 / std::pow(2, k - 1), 1e-6) << "the same step at half its length";
-    EXPECT_EQ(k == kept, strain <= options.decompression.event_resolution) << "step " << k;
-    EXPECT_EQ(k == kept, step.rearrangement.has_value()) << "step " << k;
-    EXPECT_FALSE(step.lost) << "step " << k;
-  }
-  EXPECT_TRUE(is_rearranged(result.path[kept]));
-  EXPECT_EQ(result.status, JamStatus::jammed) << to_string(result.status);
-}
-
 TEST(JamTest, AStepWithoutEquilibriumEndsItsBranch) {
   JamOptions options;
   const JamResult before = expanded(options);
