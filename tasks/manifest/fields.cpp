@@ -34,11 +34,6 @@ constexpr Field field(std::string_view name, Range range, Group group = Group::p
   return {name, group, [](JamOptions& options) -> Slot { return &(holder(options, member).*member); }, range};
 }
 
-constexpr Field omitted_by_default(Field field) {
-  field.omitted_by_default = true;
-  return field;
-}
-
 using C = Compression;
 using D = Decompression;
 using P = JamOptions;
@@ -58,10 +53,10 @@ constexpr std::array fields{
     field<&C::evaluations>("consolidation_evaluations", {1, 1e9}),
     field<&D::control>("control", none),
     field<&P::cell>("cell", none),
-    omitted_by_default(field<&Cohesion::strength>("cohesion.strength", {0, 1})),
-    omitted_by_default(field<&Cohesion::range>("cohesion.range", positive_to(1))),
-    omitted_by_default(field<&P::cohesion_until>("cohesion.until", none)),
-    omitted_by_default(field<&P::cycles>("cycles", {0, 1000})),
+    field<&Cohesion::strength>("cohesion.strength", {0, 1}),
+    field<&Cohesion::range>("cohesion.range", positive_to(1)),
+    field<&P::cohesion_until>("cohesion.until", none),
+    field<&P::cycles>("cycles", {0, 1000}),
     field<&M::method>("method", none, Group::minimiser),
     field<&M::residual>("residual", positive_to(1), Group::minimiser),
     field<&M::energy_change>("energy_change", {0, 1}, Group::minimiser),
@@ -91,17 +86,6 @@ std::string_view key_in_group(const Field& field) { return field.name.substr(0, 
 
 /// Key of a nested parameter in its object.
 std::string key_in_object(const Field& field) { return std::string(field.name.substr(field.name.find('.') + 1)); }
-
-bool is_usual(const Field& field, const JamOptions& options) {
-  return field_value(field, options) == field_value(field, {});
-}
-
-/// True if the parameter is omitted, because it and all others in its object have their default values.
-bool is_omitted(const Field& omitted, const JamOptions& options) {
-  return omitted.omitted_by_default && std::all_of(fields.begin(), fields.end(), [&](const Field& field) {
-           return key_in_group(field) != key_in_group(omitted) || is_usual(field, options);
-         });
-}
 
 }  // namespace
 
@@ -154,7 +138,7 @@ Json field_value(const Field& field, JamOptions options) {
 Json group_values(Group group, const JamOptions& options) {
   Json values = Json::object();
   for (const auto& field : fields) {
-    if (field.group != group || is_omitted(field, options)) continue;
+    if (field.group != group) continue;
     Json& value = values[std::string(key_in_group(field))];
     (is_nested(field) ? value[key_in_object(field)] : value) = field_value(field, options);
   }

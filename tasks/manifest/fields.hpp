@@ -31,9 +31,6 @@ struct Field {
   Group group;
   Slot (*slot)(JamOptions&);
   Range range;  ///< allowed values, if the parameter is a number
-  /// True if group_values() omits the parameter at its default value: an earlier version did not have it. Parameters in
-  /// an object are omitted only together.
-  bool omitted_by_default = false;
 };
 
 /// True if the parameter is in an object of its group.
@@ -58,8 +55,7 @@ void read_field(const JsonPlace& place, const Field& field, JamOptions& options)
 /// The value of a parameter in `options`.
 Json field_value(const Field& field, JamOptions options);
 
-/// All parameters of a group with their values, as a JSON object, except those that are omitted by default. Results
-/// without such a parameter therefore have the digests of versions that did not have it.
+/// All parameters of a group with their values, as a JSON object.
 Json group_values(Group group, const JamOptions& options);
 /// Removes a parameter from the result of group_values(), and then its object if this is empty.
 void erase_field(Json& values, const Field& field);

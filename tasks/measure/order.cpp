@@ -10,7 +10,7 @@ constexpr Quantity Q4{"Q4", "/order/Q4", group, "1", "Q_4"}, Q6{"Q6", "/order/Q6
 constexpr Quantity local_Q4{"local_Q4", "/order/local_Q4", group, "1", "q_4"};
 constexpr Quantity local_Q6{"local_Q6", "/order/local_Q6", group, "1", "q_6"};
 constexpr Quantity S{"S_orientation", "/order/S", group, "1", "S_o"};
-constexpr Quantity local_S = optional_quantity({"local_S_orientation", "/order/local_S", group, "1", "s_o"});
+constexpr Quantity local_S = {"local_S_orientation", "/order/local_S", group, "1", "s_o"};
 constexpr std::array quantities{Q4, Q6, local_Q4, local_Q6, S, local_S};
 
 Json order_record(const Order& order) {

@@ -31,8 +31,6 @@ struct Quantity {
   /// Measure that computes the quantity, set by all_quantities(). nullopt for quantities of the protocol.
   std::optional<Measure> measure = std::nullopt;
   bool proportion = false;  ///< true if each value is 0 or 1, so that the mean is a proportion
-  /// True if records of earlier versions lack the quantity. It then has no value.
-  bool optional = false;
   /// smallest number of kinds of particles for which a packing has the quantity
   int kinds = 1;
   bool cohesive = false;  ///< true if only packings with cohesion at zero pressure have the quantity
@@ -41,12 +39,6 @@ struct Quantity {
 /// The same quantity, with values that are 0 or 1.
 constexpr Quantity proportion(Quantity quantity) {
   quantity.proportion = true;
-  return quantity;
-}
-
-/// The same quantity, which records of earlier versions lack.
-constexpr Quantity optional_quantity(Quantity quantity) {
-  quantity.optional = true;
   return quantity;
 }
 

@@ -21,8 +21,8 @@ constexpr Count by_class{"classes",
                          {"self_stress_classes", "/rigidity/classes/self_stress", group, "1", "s_c"},
                          {"floppy_classes", "/rigidity/classes/floppy", group, "1", "f_c"}};
 constexpr Count by_trough{"trough",
-                          optional_quantity({"self_stress_trough", "/rigidity/trough/self_stress", group, "1", "s_t"}),
-                          optional_quantity({"floppy_trough", "/rigidity/trough/floppy", group, "1", "f_t"})};
+                          {"self_stress_trough", "/rigidity/trough/self_stress", group, "1", "s_t"},
+                          {"floppy_trough", "/rigidity/trough/floppy", group, "1", "f_t"}};
 constexpr std::array quantities{normals.self_stress, by_class.self_stress, by_trough.self_stress,
                                 normals.floppy,      by_class.floppy,      by_trough.floppy};
 

@@ -13,19 +13,14 @@
 
 namespace isojam {
 
-/// Quantities of this classification. Records of version 0.1.0 lack them.
-inline constexpr Quantity Z_ff_trough = optional_quantity({"Z_ff_trough", "/contacts/trough/Z_ff", contact_group,
-                                                           "per particle", "Z_{ff}^{trough}"}),
-                          Z_ef_trough = optional_quantity({"Z_ef_trough", "/contacts/trough/Z_ef", contact_group,
-                                                           "per particle", "Z_{ef}^{trough}"}),
-                          Z_l_trough = optional_quantity(
-                              {"Z_l_trough", "/contacts/trough/Z_l", contact_group, "per particle", "Z_l^{trough}"}),
-                          C_trough = optional_quantity(
-                              {"C_trough", "/contacts/trough/C", contact_group, "per particle", "C^{trough}"}),
-                          C_trough_low = optional_quantity({"C_trough_low", "/contacts/trough/C_low", contact_group,
-                                                            "per particle", "C^{trough}_{low}"}),
-                          C_trough_high = optional_quantity({"C_trough_high", "/contacts/trough/C_high", contact_group,
-                                                             "per particle", "C^{trough}_{high}"});
+/// Quantities of this classification.
+inline constexpr Quantity
+    Z_ff_trough = {"Z_ff_trough", "/contacts/trough/Z_ff", contact_group, "per particle", "Z_{ff}^{trough}"},
+    Z_ef_trough = {"Z_ef_trough", "/contacts/trough/Z_ef", contact_group, "per particle", "Z_{ef}^{trough}"},
+    Z_l_trough = {"Z_l_trough", "/contacts/trough/Z_l", contact_group, "per particle", "Z_l^{trough}"},
+    C_trough = {"C_trough", "/contacts/trough/C", contact_group, "per particle", "C^{trough}"},
+    C_trough_low = {"C_trough_low", "/contacts/trough/C_low", contact_group, "per particle", "C^{trough}_{low}"},
+    C_trough_high = {"C_trough_high", "/contacts/trough/C_high", contact_group, "per particle", "C^{trough}_{high}"};
 
 /// The histogram of the alignment angles of a state, and the bins in which cut-offs may lie. These bins are below half
 /// of the smallest critical angle over all pairs of shapes.

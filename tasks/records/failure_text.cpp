@@ -40,13 +40,10 @@ std::string remedy_of_decompression(const Json& record) {
   }
 }
 
-/// True if the run relaxes to zero pressure and has no decompression. A record does not contain settings of cohesion
-/// that have their default values.
+/// True if the run relaxes to zero pressure and has no decompression.
 bool is_to_zero_pressure(const Json& record) {
-  const Json::json_pointer cohesion("/spec/protocol/cohesion");
-  if (!record.contains(cohesion)) return false;
-  const auto& settings = record.at(cohesion);
-  return settings.value("until", "") == to_string(CohesionUntil::end) && settings.value("strength", 0.0) > 0;
+  const auto& cohesion = record.at("spec").at("protocol").at("cohesion");
+  return cohesion.at("until") == to_string(CohesionUntil::end) && cohesion.at("strength") > 0;
 }
 
 struct Explanation {

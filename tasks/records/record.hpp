@@ -7,7 +7,7 @@
 
 namespace isojam {
 
-inline constexpr std::string_view record_schema = "isojam.replicate.v4";
+inline constexpr std::string_view record_schema = "isojam.replicate.v5";
 inline constexpr std::string_view path_schema = "isojam.path.v2";
 inline constexpr std::string_view packing_schema = "isojam.packing.v3";
 

@@ -9,7 +9,6 @@
 #include "tasks/io/file.hpp"
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/place.hpp"
-#include "tasks/io/resource_failure.hpp"
 #include "tasks/io/sealed.hpp"
 #include "tasks/records/abridged.hpp"
 #include "tasks/records/record.hpp"
@@ -179,15 +178,16 @@ std::size_t index_of_nearest(const fs::path& directory, const RecordedReplicate&
   step.refuse("no state belongs to this step");
 }
 
-bool is_resource_failure_record(const RecordedReplicate& replicate) {
-  return replicate.summary.failed &&
-         is_resource_failure_text(replicate.record.at("failure").at("why").get_ref<const std::string&>());
-}
-
 std::optional<Manifest> stored_manifest(const fs::path& directory) {
   const auto file = (directory / "manifest.json").string();
   try {
     return parse_manifest(read_file(file), file);
+  } catch (const InputError& error) {
+    const auto& pointer = error.details().pointer;
+    if (pointer.empty() || pointer == "/checksum") throw;
+    // The file has its checksum, so another version wrote this value.
+    throw InputError({file, pointer, "the results were written by another version of isojam, such as 0.1.0", "", "",
+                      "run their manifest again in another directory"});
   } catch (const FileError& error) {
     if (error.reason() != FileError::Reason::missing) throw;
     return std::nullopt;

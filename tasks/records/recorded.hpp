@@ -56,10 +56,6 @@ Json read_state_file_of(const std::filesystem::path& directory, const RecordedRe
 /// if the list does not contain the state.
 std::size_t index_of_nearest(const std::filesystem::path& directory, const RecordedReplicate& replicate);
 
-/// True if the record states that the replicate failed because of a resource failure. Only earlier versions of isojam
-/// wrote such records.
-bool is_resource_failure_record(const RecordedReplicate& replicate);
-
 /// Throws FileError if the directory does not exist or is not a directory. The text of the error is the same for every
 /// command.
 void expect_directory(const std::filesystem::path& directory);

@@ -219,8 +219,6 @@ std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
       theirs = held.summary.manifest_digest;
     } else {
       check_spec(held, spec);
-      if (is_resource_failure_record(held))
-        throw InputError({path, "/failure", std::string(resource_failure_recorded), "", ""});
       check_companions(directory_, held, keep_path_);
       if (!lacks(held, kept_).empty())
         throw InputError({path, "/spec/measure",

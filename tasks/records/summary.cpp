@@ -28,7 +28,7 @@ std::optional<double> value_below(const JsonPlace& place, std::string_view point
 }
 
 /// Value of a quantity. nullopt if its measure was not requested (the first key of the pointer is missing), if the
-/// quantity is optional, or if the packing does not have so many kinds of particles or no cohesion. If another key is
+/// packing does not have so many kinds of particles or no cohesion. If another key is
 /// missing, throws.
 std::optional<double> quantity_value(const JsonPlace& place, const Quantity& quantity) {
   // Tables read millions of values. Only an unexpected value needs a JsonPlace, which contains texts for messages.
@@ -37,7 +37,7 @@ std::optional<double> quantity_value(const JsonPlace& place, const Quantity& qua
     const auto end = std::min(rest.find('/', 1), rest.size());
     const auto found = value->is_object() ? value->find(rest.substr(1, end - 1)) : value->end();
     if (found == value->end()) {
-      const bool can_be_missing = quantity.kinds > 1 || quantity.optional || quantity.cohesive;
+      const bool can_be_missing = quantity.kinds > 1 || quantity.cohesive;
       if (rest.size() == quantity.pointer.size() || can_be_missing) return std::nullopt;
       return value_below(place, quantity.pointer);
     }
@@ -116,8 +116,8 @@ void read_flags(const JsonPlace& flags, RecordSummary& summary) {
 /// Throws unless the value is the name of this format.
 void check_format(const JsonPlace& place, std::string_view format) {
   if (const auto theirs = place.text(); theirs != format)
-    place.refuse_with_remedy(fmt::format("the file has the format {}, which this version cannot read", theirs),
-                             "use the version of isojam that wrote it");
+    place.refuse_with_remedy(fmt::format("another version of isojam wrote this file, in the format {}", theirs),
+                             "run its manifest again in another directory, or use that version");
 }
 
 }  // namespace

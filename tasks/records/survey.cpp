@@ -58,10 +58,6 @@ void survey_records(const fs::path& directory, const Plan& plan, bool with_paths
         ++survey.unplanned;
         continue;
       }
-      if (is_resource_failure_record(held)) {
-        survey.damaged.push_back(fmt::format("{}: {}", name, resource_failure_recorded));
-        continue;
-      }
       check_companions(directory, held, with_paths);
       const auto spec = plan.at(place->point, place->replicate);
       if (is_superseded(held, plan)) continue;

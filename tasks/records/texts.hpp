@@ -14,8 +14,6 @@ inline constexpr std::string_view how_to_recompute =
     "run the manifest again in this directory to recompute the replicate";
 inline constexpr std::string_view other_manifest = "contains results of another manifest";
 inline constexpr std::string_view choose_another_directory = "choose another results directory";
-inline constexpr std::string_view resource_failure_recorded =
-    "records a resource failure (memory, threads or disk) instead of a result";
 inline constexpr std::string_view states_not_saved = "the states of the decompression were not saved";
 inline constexpr std::string_view how_to_keep_states =
     "set \"keep_path\": true in the manifest and run it again; isojam then recomputes the replicates without saved "

@@ -50,17 +50,16 @@ PairCounts read_counts(const JsonPlace& place) {
 }
 
 MinimiseWork read_work(const JsonPlace& place) {
-  // Records of versions that did not have these methods lack the counters.
-  const auto recent = [&](const std::string& key) { return place.has(key) ? read_count(place.at(key)) : 0; };
-  return {read_count(place.at("double_double_evaluations")),
-          read_count(place.at("hessians")),
-          read_count(place.at("factorisations")),
-          read_count(place.at("factor_updates")),
-          read_count(place.at("envelopes")),
-          read_count(place.at("envelope_overlaps")),
-          read_count(place.at("local_factorisations")),
-          recent("incomplete_factorisations"),
-          recent("krylov_vectors")};
+  const auto count = [&](const std::string& key) { return read_count(place.at(key)); };
+  return {count("double_double_evaluations"),
+          count("hessians"),
+          count("factorisations"),
+          count("factor_updates"),
+          count("envelopes"),
+          count("envelope_overlaps"),
+          count("local_factorisations"),
+          count("incomplete_factorisations"),
+          count("krylov_vectors")};
 }
 
 Rearrangement read_rearrangement(const JsonPlace& place) {

@@ -7,7 +7,7 @@ namespace isojam {
 
 // These functions convert the numbers of pairs, the work of minimisations, and rearrangements to and from JSON, for
 // records and checkpoints. Each read_… function throws InputError if the JSON does not have the form that to_json()
-// writes. Exception: records of earlier versions lack the newest counters of read_work(), which are then 0.
+// writes.
 
 Json to_json(const PairCounts& counts);
 PairCounts read_counts(const JsonPlace& place);

@@ -147,11 +147,9 @@ std::string RecordRows::reasons(const Source& source) const {
     const auto& partly = source.held.summary.nearest_only;
     const bool nearest_only =
         !value && quantity.measure && std::find(partly.begin(), partly.end(), *quantity.measure) != partly.end();
-    auto reason = nearest_only ? "only the state nearest jamming was measured"
-                  : measured   ? reason_of(*object, quantity.pointer)
-                               : std::string("not measured");
-    const bool is_newer = !value && measured && quantity.optional;
-    if (reason.empty() && is_newer) reason = "recorded by an earlier version";
+    const auto reason = nearest_only ? "only the state nearest jamming was measured"
+                        : measured   ? reason_of(*object, quantity.pointer)
+                                     : std::string("not measured");
     if (!reason.empty()) cells.push_back(std::string(quantity.name) + ": " + reason);
   }
   return joined(cells, between);

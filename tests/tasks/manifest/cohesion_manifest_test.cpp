@@ -18,10 +18,8 @@ Json with_cohesion(const Json& cohesion) {
   return manifest;
 }
 
-TEST(CohesionManifest, IsLeftOutWithoutCohesion) {
+TEST(CohesionManifest, HasTheStrengthZeroByDefault) {
   const auto plain = parse(test::good_manifest());
-  EXPECT_FALSE(to_json(plain).at("protocol").contains("cohesion"));
-  EXPECT_FALSE(to_json(test::make_plan(plain).front()).at("protocol").contains("cohesion"));
   EXPECT_EQ(digest(parse(with_cohesion({{"strength", 0}}))), digest(plain));
   EXPECT_NE(digest(parse(with_cohesion({{"strength", 1e-5}}))), digest(plain));
 }

@@ -218,24 +218,6 @@ TEST(Measure, RecordsTheHistogramOfAnglesAndItsTroughs) {
   }
 }
 
-TEST(Measure, RecordsWithoutTroughsAreRead) {
-  Json record = record_of_classes();
-  const auto strip = [](Json& state) {
-    state.at("contacts").erase("trough");
-    state.at("contacts").erase("angle_bins");
-    state.at("rigidity").erase("trough");
-  };
-  strip(record.at("nearest"));
-  for (Json& state : record.at("states")) strip(state);
-  EXPECT_EQ(violations("replicate", record), "");
-  const auto summary = summarise_record(record, "record");
-  for (const auto* name : {"Z_ff_trough", "C_trough", "self_stress_trough"})
-    EXPECT_FALSE(summary.values[*quantity_index(name)]) << name;
-  EXPECT_TRUE(summary.values[*quantity_index("Z")]);
-  record.at("nearest").at("contacts").erase("Z");
-  EXPECT_THROW(summarise_record(record, "record"), InputError);
-}
-
 TEST(Measure, GivesTheSameBitsTwice) {
   for (const auto what : all_measures) {
     const auto once = measure(what, jammed()), again = measure(what, jammed());

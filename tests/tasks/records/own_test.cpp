@@ -116,8 +116,8 @@ TEST_F(Own, EveryErrorOfAFileHasARemedy) {
   change(file, [](Json& json) { json["phi_j"]["value"] = 0.7; });
   expect(file, "/result_digest: the record was changed: its result does not match its digest", recompute);
   change(file, [](Json& json) { json["schema"] = "isojam.replicate.v9"; });
-  expect(file, "/schema: the file has the format isojam.replicate.v9, which this version cannot read",
-         "; use the version of isojam that wrote it");
+  expect(file, "/schema: another version of isojam wrote this file, in the format isojam.replicate.v9",
+         "; run its manifest again in another directory, or use that version");
   change(file, [](Json& json) { json.erase("spec"); });
   expect(file, "/spec: the required key is missing", recompute);
   test::write_text(file, record.substr(0, 300));
@@ -184,19 +184,16 @@ TEST_F(Own, NestingWithoutEndIsDamage) {
   EXPECT_NE(warnings_.said[0].find("nested"), std::string::npos) << warnings_.said[0];
 }
 
-TEST_F(Own, ResourceFailuresAreRecomputed) {
-  for (const std::string why : {"std::bad_alloc", "Resource temporarily unavailable",
-                                "pthread_create has failed: Resource temporarily unavailable"}) {
-    auto outcome = test::made_up_outcome(plan_[0]);
-    outcome.failure = Failure{"jam", why};
-    store_.write(outcome);
-    expect_not_held(path("records", 0));
-    store_.write(test::made_up_outcome(plan_[0]));
+TEST_F(Own, ResultsOfAnotherVersionAreRefusedWithARemedy) {
+  change(here_.path() / "manifest.json", [](Json& json) { json["protocol"]["consolidation"] = "relaxed"; });
+  try {
+    own_manifest(here_.path());
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), (here_.path() / "manifest.json").string() +
+                                ": /protocol/consolidation: the results were written by another version of isojam, "
+                                "such as 0.1.0; run their manifest again in another directory");
   }
-  auto outcome = test::made_up_outcome(plan_[0]);
-  outcome.failure = Failure{"jam", "density_limit"};
-  store_.write(outcome);
-  EXPECT_TRUE(store_.recorded(plan_[0])) << "that it did not jam is an outcome";
 }
 
 TEST(Rivals, OneOfThemGetsAFreshDirectory) {
