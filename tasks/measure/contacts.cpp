@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "engine/analysis/alignment/random_alignment.hpp"
-#include "engine/analysis/alignment/random_contact.hpp"
 #include "engine/analysis/cohesive_contacts.hpp"
 #include "engine/analysis/order.hpp"
 #include "engine/packing/energy.hpp"
@@ -221,48 +220,6 @@ class RandomContacts {
   std::vector<Shape> shapes_;
 };
 
-/// Angles of random contacts that include contacts of two edges. Contacts of a vertex with a face, and contacts of two
-/// edges, have the shares that they have for isotropic orientations of these solids.
-class IsotropicContacts {
- public:
-  static RandomContact of(const Composition& solids, std::span<const Contact> contacts) {
-    if (solids.is_uniform() || contacts.empty()) return RandomContact(solids.unit(0));
-    IsotropicContacts shares(solids, contacts);
-    RandomContact random;
-    for (const auto& [shape, share] : shares.vertices_) random.add(share, RandomAlignment(*shape.second));
-    for (const auto& [pair, share] : shares.edges_)
-      random.add(share, RandomEdgeContact(*pair.first.second, *pair.second.second));
-    return random;
-  }
-
- private:
-  using Shape = std::pair<std::string, const ConvexSolid*>;  ///< sorted by name: fixes the order of sums
-
-  IsotropicContacts(const Composition& solids, std::span<const Contact> contacts) {
-    const double one = 1 / static_cast<double>(contacts.size());
-    for (const auto& contact : contacts) {
-      const auto a = static_cast<std::size_t>(contact.pair.a), b = static_cast<std::size_t>(contact.pair.b);
-      const ContactShares shares = contact_shares(size_of(solids[a]), size_of(solids[b]));
-      const Shape shape_a = shape_of(solids.unit(a)), shape_b = shape_of(solids.unit(b));
-      vertices_[shape_a] += one * shares.vertex_of_a;
-      vertices_[shape_b] += one * shares.vertex_of_b;
-      edges_[std::minmax(shape_a, shape_b)] += one * shares.edge_edge;
-    }
-  }
-
-  static Shape shape_of(const ConvexSolid& unit) { return {unit.name(), &unit}; }
-
-  const ContactSize& size_of(const ConvexSolid& solid) {
-    const auto [place, is_new] = sizes_.try_emplace(&solid);
-    if (is_new) place->second = contact_size(solid);
-    return place->second;
-  }
-
-  std::map<const ConvexSolid*, ContactSize> sizes_;
-  std::map<Shape, double> vertices_;
-  std::map<std::pair<Shape, Shape>, double> edges_;
-};
-
 /// For a mixture: the mean number Z_ij of contacts of a particle of kind i with particles of kind j, and the mixing M.
 /// M is the share of contacts between particles of different kinds, divided by the share that would result if the ends
 /// of all contacts were combined at random.
@@ -308,8 +265,7 @@ void put_cohesive(Json& state, const Packing& packing, const ClassifiedContacts&
 }
 
 /// The alignment angles of a state in ascending order, for plots of their distributions. Also states whether there are
-/// more small angles than for random contacts. Two kinds of random contacts are compared: only vertices in faces, and
-/// vertices in faces together with pairs of edges.
+/// more small angles than for random contacts of a vertex with a face.
 Json angle_record(const Packing& packing, const ClassifiedContacts& classified) {
   std::vector<double> face_face, edge_face;
   for (const auto& alignment : classified.alignments) {
@@ -333,11 +289,6 @@ Json angle_record(const Packing& packing, const ClassifiedContacts& classified) 
       face_face, [&](double theta) { return random.face_face(theta); }, random.ff_max()));
   json["edge_face_random"] = compared(compare_with_random(
       edge_face, [&](double theta) { return random.edge_face(theta); }, random.ef_max()));
-  const RandomContact isotropic = IsotropicContacts::of(packing.solids, classified.contacts);
-  json["face_face_random_contact"] = compared(compare_with_random(
-      face_face, [&](double theta) { return isotropic.face_face(theta); }, isotropic.ff_max()));
-  json["edge_face_random_contact"] = compared(compare_with_random(
-      edge_face, [&](double theta) { return isotropic.edge_face(theta); }, isotropic.ef_max()));
   json["face_face"] = std::move(face_face);
   json["edge_face"] = std::move(edge_face);
   return json;

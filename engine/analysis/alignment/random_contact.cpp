@@ -134,21 +134,6 @@ struct Place {
 };
 
 /// Mean over all kinds of contacts, weighted by their fractions.
-template <class Vertices, class EdgeParts, class Function>
-double mean(const Vertices& vertices, const EdgeParts& edges, const Function& of) {
-  double sum = 0;
-  for (const auto& part : vertices) sum += part.share * of(part.angles);
-  for (const auto& part : edges) sum += part.share * of(part.angles);
-  return sum;
-}
-template <class Vertices, class EdgeParts, class Function>
-double most(const Vertices& vertices, const EdgeParts& edges, const Function& of) {
-  double greatest = 0;
-  for (const auto& part : vertices) greatest = std::max(greatest, of(part.angles));
-  for (const auto& part : edges) greatest = std::max(greatest, of(part.angles));
-  return greatest;
-}
-
 }  // namespace
 
 ContactSize contact_size(const ConvexSolid& solid) {
@@ -228,29 +213,16 @@ double RandomEdgeContact::Curve::operator()(double theta) const {
   return share_at_cut * (power == 2 ? squared(part) : part);
 }
 
-RandomContact::RandomContact(const ConvexSolid& solid) {
-  const ContactSize size = contact_size(solid);
-  const ContactShares shares = contact_shares(size, size);
-  add(shares.vertex_of_a + shares.vertex_of_b, RandomAlignment(solid));
-  add(shares.edge_edge, RandomEdgeContact(solid, solid));
-}
+RandomContact::RandomContact(const ConvexSolid& solid)
+    : vertices_(solid),
+      edges_(solid, solid),
+      share_(contact_shares(contact_size(solid), contact_size(solid)).edge_edge) {}
 
 double RandomContact::face_face(double theta) const {
-  return mean(vertices_, edges_, [theta](const auto& angles) { return angles.face_face(theta); });
+  return (1 - share_) * vertices_.face_face(theta) + share_ * edges_.face_face(theta);
 }
 double RandomContact::edge_face(double theta) const {
-  return mean(vertices_, edges_, [theta](const auto& angles) { return angles.edge_face(theta); });
-}
-double RandomContact::ff_max() const {
-  return most(vertices_, edges_, [](const auto& angles) { return angles.ff_max(); });
-}
-double RandomContact::ef_max() const {
-  return most(vertices_, edges_, [](const auto& angles) { return angles.ef_max(); });
-}
-double RandomContact::edge_edge_share() const {
-  double sum = 0;
-  for (const auto& part : edges_) sum += part.share;
-  return sum;
+  return (1 - share_) * vertices_.edge_face(theta) + share_ * edges_.edge_face(theta);
 }
 
 }  // namespace isojam

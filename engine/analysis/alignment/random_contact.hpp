@@ -1,6 +1,6 @@
 #pragma once
 
-#include <utility>
+#include <algorithm>
 #include <vector>
 
 #include "engine/analysis/alignment/random_alignment.hpp"
@@ -78,32 +78,22 @@ class RandomEdgeContact {
   Curve face_face_, edge_face_;
 };
 
-/// Distributions of the alignment angles of all contacts: the sum of the distributions of all types of contacts,
-/// weighted by their fractions.
+/// Distributions of the alignment angles of all contacts between identical solids: the sum of the distributions of both
+/// types of contacts, weighted by their fractions.
 class RandomContact {
  public:
-  RandomContact() = default;
-  /// Contacts between identical solids.
   explicit RandomContact(const ConvexSolid& solid);
 
-  /// Adds a type of contact. `share` is its fraction of all contacts; all fractions must sum to 1.
-  void add(double share, RandomAlignment vertices) { vertices_.push_back({share, std::move(vertices)}); }
-  void add(double share, RandomEdgeContact edges) { edges_.push_back({share, std::move(edges)}); }
-
-  double face_face(double theta) const;  ///< cumulative distribution of θ_ff
-  double edge_face(double theta) const;  ///< cumulative distribution of θ_ef
-  double ff_max() const;                 ///< angle where face_face() reaches 1
-  double ef_max() const;                 ///< angle where edge_face() reaches 1
-  double edge_edge_share() const;        ///< fraction of contacts in which two edges cross
+  double face_face(double theta) const;                                            ///< cumulative distribution of θ_ff
+  double edge_face(double theta) const;                                            ///< cumulative distribution of θ_ef
+  double ff_max() const { return std::max(vertices_.ff_max(), edges_.ff_max()); }  ///< where face_face() reaches 1
+  double ef_max() const { return std::max(vertices_.ef_max(), edges_.ef_max()); }  ///< where edge_face() reaches 1
+  double edge_edge_share() const { return share_; }  ///< fraction of contacts in which two edges cross
 
  private:
-  template <class Angles>
-  struct Part {
-    double share;
-    Angles angles;
-  };
-  std::vector<Part<RandomAlignment>> vertices_;
-  std::vector<Part<RandomEdgeContact>> edges_;
+  RandomAlignment vertices_;
+  RandomEdgeContact edges_;
+  double share_;
 };
 
 }  // namespace isojam
