@@ -1,8 +1,11 @@
 #include "tasks/records/store.hpp"
 
 #include <fmt/format.h>
+#include <tbb/info.h>
+#include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
+#include <exception>
 #include <system_error>
 
 #include "tasks/io/atomic_file.hpp"
@@ -10,7 +13,6 @@
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/sealed.hpp"
 #include "tasks/records/checkpoint.hpp"
-#include "tasks/records/in_order.hpp"
 #include "tasks/records/record.hpp"
 #include "tasks/records/summary.hpp"
 #include "tasks/records/texts.hpp"
@@ -319,21 +321,32 @@ void for_each_record(const fs::path& directory, const std::optional<Manifest>& m
   const auto own = manifest ? digest(*manifest) : "";
   const auto measures = manifest ? to_json(*manifest).at("measure") : Json();
   struct Read {
-    std::optional<RecordedReplicate> held;
-    std::string ignored;  ///< name of a file that is not a record
+    std::string name;
+    std::optional<RecordedReplicate> held{};
+    std::exception_ptr error{};
   };
-  const auto read = [&](std::size_t index) -> Read {
+  std::size_t count = 0;
+  const auto next = [&](tbb::flow_control& control) {
+    if (count == names.size()) control.stop();
+    return count == names.size() ? std::string() : names[count++];
+  };
+  const auto read = [&](const std::string& name) {
+    Read one{name};
     try {
-      return {read_one(directory, names[index]), ""};
+      one.held = read_one(directory, name);
     } catch (const InputError&) {
-      if (!plan || plan->place_of(names[index])) throw;
-      return {std::nullopt, names[index]};
+      if (!plan || plan->place_of(name)) one.error = std::current_exception();
+    } catch (...) {
+      one.error = std::current_exception();
     }
+    return one;
   };
   const auto file_of = [&](const std::string& name) { return (directory / "records" / (name + ".json")).string(); };
-  in_order(names.size(), read, [&](Read one) {
+  const auto pass_on = [&](Read one) {
+    // Thrown here instead of in `read`, so that the first error of the list is reported.
+    if (one.error) std::rethrow_exception(one.error);
     if (!one.held) {
-      warn(file_of(one.ignored) +
+      warn(file_of(one.name) +
            ": is ignored, because the manifest has no such replicate; remove the file, or correct its name");
     } else if (plan && one.held->summary.manifest_digest != own && !is_of(*one.held, *plan)) {
       if (is_superseded(*one.held, *plan)) return;
@@ -346,7 +359,12 @@ void for_each_record(const fs::path& directory, const std::optional<Manifest>& m
       }
       use(*std::move(one.held));
     }
-  });
+  };
+  // At most four records for each thread are in memory.
+  tbb::parallel_pipeline(4 * static_cast<std::size_t>(tbb::info::default_concurrency()),
+                         tbb::make_filter<void, std::string>(tbb::filter_mode::serial_in_order, next) &
+                             tbb::make_filter<std::string, Read>(tbb::filter_mode::parallel, read) &
+                             tbb::make_filter<Read, void>(tbb::filter_mode::serial_in_order, pass_on));
 }
 
 }  // namespace isojam
