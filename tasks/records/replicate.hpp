@@ -24,6 +24,10 @@ struct Failure {
 /// additional threads of the pair loop.
 struct Timing {
   double wall_seconds = 0, cpu_seconds = 0;
+
+  friend Timing operator+(const Timing& a, const Timing& b) {
+    return {a.wall_seconds + b.wall_seconds, a.cpu_seconds + b.cpu_seconds};
+  }
 };
 
 /// Name of a stage of the protocol in messages: compression for `consolidation`, decompression for `expansion`.

@@ -20,6 +20,7 @@
 #include <new>
 #include <thread>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -31,60 +32,24 @@ namespace {
 
 namespace flow = tbb::flow;
 
-/// Result of a stage: a value or a failure. If the run was stopped, it has neither.
-template <class T>
-struct StageResult {
-  std::optional<T> value;
-  std::optional<Failure> failure;
-  Timing timing;
+/// A replicate on its way through the graph.
+struct Replicate {
+  /// Result of a measure. If the run was stopped, it has neither value nor failure.
+  struct Part {
+    std::optional<Measurement> value;
+    std::optional<Failure> failure;
+    Timing timing;
+  };
+
+  Outcome outcome;                       ///< what the stages have added so far
+  std::optional<Checkpoint> start;       ///< progress from which the stage "jam" begins
+  std::vector<Part> parts;               ///< of all measures; each writes to its own part
+  std::atomic<std::size_t> started = 0;  ///< number of measures that have started
+  std::size_t ended = 0;                 ///< number of measures that have reached the node `join`
 };
+using Message = std::shared_ptr<Replicate>;
 
-struct Started {
-  ReplicateSpec spec;
-  StageResult<Checkpoint> start;
-};
-
-struct Jammed {
-  ReplicateSpec spec;
-  StageResult<JamResult> jam;  ///< its timing includes `begin` and interrupted runs
-};
-
-/// A replicate whose measures are being computed. All use the same jammed result, and each writes to its own slot.
-struct Measuring {
-  std::shared_ptr<const Jammed> jammed;
-  std::vector<StageResult<Measurement>>
-      results;  ///< a slot for each of spec.measures; empty if the replicate did not jam
-  std::atomic<std::size_t> tasks_left = 0;
-};
-
-struct MeasureTask {
-  std::shared_ptr<Measuring> replicate;
-  std::size_t slot = 0;
-};
-
-template <class T>
-bool is_missing(const StageResult<T>& result) {
-  return !result.value && !result.failure;
-}
-
-/// Wall-clock time, and CPU time of this thread, since the construction.
-class Stopwatch {
- public:
-  Timing elapsed() const {
-    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(),
-            thread_cpu_seconds() - cpu_};
-  }
-
- private:
-  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-  double cpu_ = thread_cpu_seconds();
-};
-
-Timing operator+(const Timing& a, const Timing& b) {
-  return {a.wall_seconds + b.wall_seconds, a.cpu_seconds + b.cpu_seconds};
-}
-
-/// One call of run_graph(). Its member functions are the bodies of the nodes.
+/// One call of run_graph().
 class Run {
  public:
   Run(const NextReplicate& next, const Stages& stages, const GraphOptions& options,
@@ -93,93 +58,144 @@ class Run {
           stop_.request_stop();
         }) {}
 
-  ReplicateSpec next(tbb::flow_control& control) {
-    std::optional<ReplicateSpec> spec;
-    if (!stop_.stop_requested()) {
-      catch_callback_error([&] { spec = next_(); });
+  /// specs → limiter → begin → jam ⇉ measure → join → store → limiter. If there is nothing to measure, jam → store.
+  void wait_for_all(int in_flight) {
+    using Jam = flow::multifunction_node<Message, std::tuple<Message, Message>>;
+    using Join = flow::multifunction_node<Message, std::tuple<Message>>;
+    flow::graph graph;
+    flow::input_node<Message> specs(graph, [this](tbb::flow_control& control) { return next(control); });
+    flow::limiter_node<Message> limiter(graph, static_cast<std::size_t>(in_flight));
+    flow::function_node<Message, Message> begin(graph, flow::unlimited, [this](Message replicate) {
+      this->begin(*replicate);
+      return replicate;
+    });
+    Jam jam(graph, flow::unlimited, [this](const Message& replicate, Jam::output_ports_type& ports) {
+      this->jam(*replicate);
+      const std::size_t measures = replicate->parts.size();
+      for (std::size_t k = 0; k < measures; ++k) std::get<0>(ports).try_put(replicate);
+      if (measures == 0) std::get<1>(ports).try_put(replicate);
+    });
+    flow::function_node<Message, Message> measure(graph, flow::unlimited, [this](Message replicate) {
+      this->measure(*replicate);
+      return replicate;
+    });
+    Join join(graph, flow::serial, [](const Message& replicate, Join::output_ports_type& ports) {
+      if (++replicate->ended < replicate->parts.size()) return;
+      add_parts(*replicate);
+      std::get<0>(ports).try_put(replicate);
+    });
+    flow::function_node<Message> store(graph, flow::serial, [this](const Message& replicate) {
+      catch_callback_error([&] { on_outcome_(replicate->outcome); });
+      return flow::continue_msg();
+    });
+
+    flow::make_edge(specs, limiter);
+    flow::make_edge(limiter, begin);
+    flow::make_edge(begin, jam);
+    flow::make_edge(flow::output_port<0>(jam), measure);
+    flow::make_edge(flow::output_port<1>(jam), store);
+    flow::make_edge(measure, join);
+    flow::make_edge(flow::output_port<0>(join), store);
+    flow::make_edge(store, limiter.decrementer());
+    try {
+      specs.activate();
+      graph.wait_for_all();
+    } catch (...) {
+      stop_.request_stop();
+      drain(graph);
+      throw;
     }
-    if (spec) return *std::move(spec);
-    control.stop();
-    return {};
-  }
-
-  std::shared_ptr<const Started> begin(const ReplicateSpec& spec) {
-    return std::make_shared<Started>(
-        Started{spec, run_stage<Checkpoint>("begin", [&] { return stages_.begin(spec); })});
-  }
-
-  std::shared_ptr<const Jammed> jam(const Started& started) {
-    const auto& start = started.start;
-    if (!start.value) return std::make_shared<Jammed>(Jammed{started.spec, {{}, start.failure, start.timing}});
-    const auto before = start.timing + start.value->spent;
-    const Stopwatch watch;
-    const OnProgress on_progress = [&](const JamProgress& progress) {
-      if (!options_.on_step) return;
-      catch_callback_error([&] { options_.on_step(started.spec, {progress, before + watch.elapsed()}); });
-    };
-    auto jam = run_stage<JamResult>(
-        "jam", [&] { return stages_.jam(started.spec, start.value->progress, stop_.get_token(), on_progress); });
-    if (jam.value && jam.value->status != JamStatus::interrupted) jam.failure = failure_of(*jam.value);
-    jam.timing = jam.timing + before;
-    return std::make_shared<Jammed>(Jammed{started.spec, std::move(jam)});
-  }
-
-  void measure(const MeasureTask& task) {
-    const Jammed& jammed = *task.replicate->jammed;
-    auto& results = task.replicate->results;
-    if (task.slot == results.size() || stop_.stop_requested()) return;
-    const auto what = jammed.spec.measures[task.slot];
-    results[task.slot] =
-        run_stage<Measurement>(to_string(what), [&] { return stages_.measure(jammed.spec, what, *jammed.jam.value); });
-  }
-
-  void store(const Measuring& measuring) {
-    const auto& [spec, jam] = *measuring.jammed;
-    Outcome outcome;
-    outcome.spec = spec;
-    outcome.failure = jam.failure;
-    outcome.timing = jam.timing;
-    outcome.stage_seconds["jam"] = jam.timing.cpu_seconds;
-    if (jam.value) outcome.jam = *jam.value;
-    outcome.interrupted = outcome.jam.status == JamStatus::interrupted || is_missing(jam);
-    for (std::size_t k = 0; k < measuring.results.size(); ++k) {
-      const auto& result = measuring.results[k];
-      outcome.timing = outcome.timing + result.timing;
-      if (result.value) {
-        outcome.measured[spec.measures[k]] = *result.value;
-        outcome.stage_seconds[std::string(to_string(spec.measures[k]))] = result.timing.cpu_seconds;
-      }
-      if (!outcome.failure) outcome.failure = result.failure;
-      outcome.interrupted |= is_missing(result);
-    }
-    catch_callback_error([&] { on_outcome_(outcome); });
-  }
-
-  void end() { stop_.request_stop(); }
-  void rethrow() const {
     if (error_) std::rethrow_exception(error_);
   }
 
  private:
-  /// Runs a stage of a replicate, measures its time, and turns an exception into a failure. A resource failure is not a
-  /// failure of the replicate: it ends the run, and the result then has neither value nor failure.
-  template <class T, class Stage>
-  StageResult<T> run_stage(std::string_view where, const Stage& stage) {
-    StageResult<T> result;
+  Message next(tbb::flow_control& control) {
+    std::optional<ReplicateSpec> spec;
+    if (!stop_.stop_requested()) catch_callback_error([&] { spec = next_(); });
+    if (!spec) {
+      control.stop();
+      return nullptr;
+    }
+    auto replicate = std::make_shared<Replicate>();
+    replicate->outcome.spec = *std::move(spec);
+    return replicate;
+  }
+
+  void begin(Replicate& replicate) {
+    Outcome& outcome = replicate.outcome;
+    replicate.start = run_stage("begin", outcome.timing, outcome.failure, [&] { return stages_.begin(outcome.spec); });
+    if (replicate.start) outcome.timing = outcome.timing + replicate.start->spent;
+  }
+
+  void jam(Replicate& replicate) {
+    Outcome& outcome = replicate.outcome;
+    if (replicate.start) {
+      const Timing before = outcome.timing;
+      const Stopwatch watch;
+      const OnProgress on_progress = [&](const JamProgress& progress) {
+        if (!options_.on_step) return;
+        catch_callback_error([&] { options_.on_step(outcome.spec, {progress, before + watch.elapsed()}); });
+      };
+      auto jammed = run_stage("jam", outcome.timing, outcome.failure, [&] {
+        return stages_.jam(outcome.spec, std::move(replicate.start->progress), stop_.get_token(), on_progress);
+      });
+      if (jammed) {
+        outcome.jam = *std::move(jammed);
+        outcome.interrupted = outcome.jam.status == JamStatus::interrupted;
+        if (!outcome.interrupted) outcome.failure = failure_of(outcome.jam);
+        replicate.parts.resize(outcome.spec.measures.size());
+      }
+      outcome.interrupted |= !jammed && !outcome.failure;
+    } else {
+      outcome.interrupted = !outcome.failure;
+    }
+    outcome.stage_seconds["jam"] = outcome.timing.cpu_seconds;
+  }
+
+  void measure(Replicate& replicate) {
+    const std::size_t k = replicate.started++;
+    if (stop_.stop_requested()) return;
+    const Outcome& outcome = replicate.outcome;
+    auto& part = replicate.parts[k];
+    const auto what = outcome.spec.measures[k];
+    part.value = run_stage(to_string(what), part.timing, part.failure,
+                           [&] { return stages_.measure(outcome.spec, what, outcome.jam); });
+  }
+
+  static void add_parts(Replicate& replicate) {
+    Outcome& outcome = replicate.outcome;
+    for (std::size_t k = 0; k < replicate.parts.size(); ++k) {
+      auto& part = replicate.parts[k];
+      const auto what = outcome.spec.measures[k];
+      outcome.timing = outcome.timing + part.timing;
+      outcome.interrupted |= !part.value && !part.failure;
+      if (!outcome.failure) outcome.failure = part.failure;
+      if (!part.value) continue;
+      outcome.measured[what] = *std::move(part.value);
+      outcome.stage_seconds[std::string(to_string(what))] = part.timing.cpu_seconds;
+    }
+  }
+
+  /// Runs a stage of a replicate, adds its time, and turns an exception into a failure. A resource failure is not a
+  /// failure of the replicate: it ends the run, and there is neither a value nor a failure.
+  template <class Stage>
+  std::optional<std::invoke_result_t<const Stage&>> run_stage(std::string_view where, Timing& timing,
+                                                              std::optional<Failure>& failure, const Stage& stage) {
+    std::optional<std::invoke_result_t<const Stage&>> value;
     const Stopwatch watch;
     try {
-      result.value = stage();
+      value = stage();
     } catch (const std::exception& error) {
       if (is_resource_failure(error)) {
         keep(std::current_exception());
       } else {
-        result.failure = Failure{std::string(where), error.what()};
+        failure = Failure{std::string(where), error.what()};
       }
     } catch (...) {
-      result.failure = Failure{std::string(where), "an exception of unknown type"};
+      failure = Failure{std::string(where), "an exception of unknown type"};
     }
-    result.timing = watch.elapsed();
-    return result;
+    timing = timing + watch.elapsed();
+    return value;
   }
 
   /// Keeps exceptions of the caller's functions, which must not leave the graph.
@@ -191,12 +207,41 @@ class Run {
     }
   }
 
-  /// Keeps the first error, which run_graph() throws at the end, and ends the run.
+  /// Keeps the first error, which wait_for_all() throws at the end, and ends the run.
   void keep(const std::exception_ptr& error) {
     const std::lock_guard lock(error_mutex_);
     if (!error_) error_ = error;
     stop_.request_stop();
   }
+
+  /// Waits until all tasks have ended after an exception. The nodes are destroyed before the graph, so no task may still
+  /// use them. If waiting fails again and again for lack of memory, the program ends.
+  static void drain(flow::graph& graph) {
+    constexpr int attempts = 100;
+    graph.cancel();
+    for (int k = 1;; ++k) {
+      try {
+        graph.wait_for_all();
+        return;
+      } catch (const std::exception&) {
+        if (k == attempts) std::terminate();
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      }
+    }
+  }
+
+  /// Wall-clock time, and CPU time of this thread, since the construction.
+  class Stopwatch {
+   public:
+    Timing elapsed() const {
+      return {std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(),
+              thread_cpu_seconds() - cpu_};
+    }
+
+   private:
+    std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+    double cpu_ = thread_cpu_seconds();
+  };
 
   const NextReplicate& next_;
   const Stages& stages_;
@@ -207,70 +252,6 @@ class Run {
   std::mutex error_mutex_;
   std::exception_ptr error_;
 };
-
-/// Waits until all tasks have ended after an exception. The nodes are destroyed before the graph, so no task may still
-/// use them. If waiting fails again and again for lack of memory, the program ends.
-void drain(flow::graph& graph) {
-  constexpr int attempts = 100;
-  graph.cancel();
-  for (int k = 1;; ++k) {
-    try {
-      graph.wait_for_all();
-      return;
-    } catch (const std::exception&) {
-      if (k == attempts) std::terminate();
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-  }
-}
-
-/// One task for each measure of the replicate. If it has no measures, one task that only passes the replicate on.
-std::vector<MeasureTask> measure_tasks(std::shared_ptr<const Jammed> jammed) {
-  const auto replicate = std::make_shared<Measuring>();
-  replicate->results.resize(jammed->jam.value ? jammed->spec.measures.size() : 0);
-  replicate->tasks_left = std::max<std::size_t>(replicate->results.size(), 1);
-  replicate->jammed = std::move(jammed);
-  std::vector<MeasureTask> tasks;
-  for (std::size_t slot = 0; slot < replicate->tasks_left; ++slot) tasks.push_back({replicate, slot});
-  return tasks;
-}
-
-void build_and_wait(Run& run, int in_flight) {
-  using JamNode = flow::multifunction_node<std::shared_ptr<const Started>, std::tuple<MeasureTask>>;
-  using MeasureNode = flow::multifunction_node<MeasureTask, std::tuple<std::shared_ptr<const Measuring>>>;
-  flow::graph graph;
-  flow::input_node<ReplicateSpec> input(graph, [&](tbb::flow_control& control) { return run.next(control); });
-  flow::limiter_node<ReplicateSpec> limiter(graph, static_cast<std::size_t>(in_flight));
-  flow::function_node<ReplicateSpec, std::shared_ptr<const Started>> begin(
-      graph, flow::unlimited, [&](const ReplicateSpec& spec) { return run.begin(spec); });
-  JamNode jam(graph, flow::unlimited, [&](const auto& started, JamNode::output_ports_type& ports) {
-    for (const auto& task : measure_tasks(run.jam(*started))) std::get<0>(ports).try_put(task);
-  });
-  MeasureNode measure(graph, flow::unlimited, [&](const MeasureTask& task, MeasureNode::output_ports_type& ports) {
-    run.measure(task);
-    // The task that finishes last passes the results of all measures on.
-    if (--task.replicate->tasks_left == 0) std::get<0>(ports).try_put(task.replicate);
-  });
-  flow::function_node<std::shared_ptr<const Measuring>> store(graph, flow::serial, [&](const auto& measuring) {
-    run.store(*measuring);
-    return flow::continue_msg();
-  });
-
-  flow::make_edge(input, limiter);
-  flow::make_edge(limiter, begin);
-  flow::make_edge(begin, jam);
-  flow::make_edge(flow::output_port<0>(jam), measure);
-  flow::make_edge(flow::output_port<0>(measure), store);
-  flow::make_edge(store, limiter.decrementer());
-  try {
-    input.activate();
-    graph.wait_for_all();
-  } catch (...) {
-    run.end();
-    drain(graph);
-    throw;
-  }
-}
 
 }  // namespace
 
@@ -290,8 +271,7 @@ void run_graph(const NextReplicate& next, const Stages& stages, const GraphOptio
                const std::function<void(const Outcome&)>& on_outcome) {
   const int threads = options.threads > 0 ? options.threads : default_threads();
   Run run(next, stages, options, on_outcome);
-  with_threads(threads, [&] { build_and_wait(run, options.in_flight > 0 ? options.in_flight : threads); });
-  run.rethrow();
+  with_threads(threads, [&] { run.wait_for_all(options.in_flight > 0 ? options.in_flight : threads); });
 }
 
 }  // namespace isojam
