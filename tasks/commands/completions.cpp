@@ -1,11 +1,18 @@
-#include "tasks/commands/completions.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <string_view>
 
+#include "tasks/commands/command.hpp"
+#include "tasks/commands/shared.hpp"
+
 namespace isojam {
+
+enum class Shell : std::uint8_t { bash, zsh, fish };
+template <>
+inline constexpr std::array enum_names<Shell>{EnumName{Shell::bash, "bash"}, EnumName{Shell::zsh, "zsh"},
+                                              EnumName{Shell::fish, "fish"}};
+
 namespace {
 
 bool is_directory(const OptionDescription& option) { return option.type == "DIR"; }
@@ -168,8 +175,7 @@ std::string fish_script(const ProgramDescription& program) {
   return script;
 }
 
-}  // namespace
-
+/// The completion script for a shell. It completes commands, options, their values, and names of files and directories.
 std::string completions(const ProgramDescription& program, Shell shell) {
   switch (shell) {
     case Shell::bash: return bash_script(program);
@@ -177,6 +183,24 @@ std::string completions(const ProgramDescription& program, Shell shell) {
     case Shell::fish: return fish_script(program);
   }
   return "";
+}
+
+struct CompletionArguments {
+  Shell shell = Shell::bash;
+  std::string output;  ///< path of the output file; empty for standard output
+};
+
+}  // namespace
+
+void add_completions(CLI::App& app, Session& session) {
+  const auto arguments = std::make_shared<CompletionArguments>();
+  auto options =
+      add_command(app, session, "completions", "Print a shell-completion script", [arguments, &session](Console&) {
+        print_or_write(completions(session.program, arguments->shell), arguments->output);
+        return ExitCode::done;
+      });
+  options.choice("shell", arguments->shell, "Shell for which the script is written", Options::Need::required);
+  options.text("-o,--output", arguments->output, "Output file (default: standard output)", "FILE");
 }
 
 }  // namespace isojam

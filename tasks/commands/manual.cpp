@@ -1,7 +1,9 @@
-#include "tasks/commands/manual.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "tasks/commands/command.hpp"
+#include "tasks/io/atomic_file.hpp"
+#include "tasks/io/standard_streams.hpp"
 
 namespace isojam {
 namespace {
@@ -44,8 +46,7 @@ std::string synopsis(const CommandDescription& command) {
   return line;
 }
 
-}  // namespace
-
+/// The text of the manual page isojam(1), with man macros.
 std::string manual(const ProgramDescription& program) {
   std::string page = fmt::format(".TH {} 1 \"\" \"{}\" \"User Commands\"\n", program.name, program.version);
   page += ".SH NAME\n" + escaped(program.name) + " \\- " +
@@ -65,6 +66,26 @@ std::string manual(const ProgramDescription& program) {
   for (const auto& [code, meaning] : program.exit_codes)
     page += fmt::format(".TP\n\\fB{}\\fR\n{}\n", static_cast<int>(code), escaped(meaning));
   return page;
+}
+
+}  // namespace
+
+void print_or_write(const std::string& text, const std::string& output) {
+  if (output.empty()) {
+    print(text);
+  } else {
+    write_output(output, text);
+  }
+}
+
+void add_manual(CLI::App& app, Session& session) {
+  const auto output = std::make_shared<std::string>();
+  auto options =
+      add_command(app, session, "manual", "Print the manual page in the format of man", [output, &session](Console&) {
+        print_or_write(manual(session.program), *output);
+        return ExitCode::done;
+      });
+  options.text("-o,--output", *output, "Output file (default: standard output)", "FILE");
 }
 
 }  // namespace isojam

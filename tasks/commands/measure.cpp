@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <stop_token>
 
-#include "tasks/commands/add_measures.hpp"
 #include "tasks/commands/command.hpp"
 #include "tasks/commands/shared.hpp"
 #include "tasks/io/input_error.hpp"
@@ -11,6 +11,8 @@
 #include "tasks/io/memory.hpp"
 #include "tasks/io/place.hpp"
 #include "tasks/manifest/cohesion.hpp"
+#include "tasks/manifest/cost.hpp"
+#include "tasks/run/additions.hpp"
 #include "tasks/run/graph.hpp"
 #include "tasks/tables/table_of.hpp"
 #include "tasks/tables/tables.hpp"
@@ -24,6 +26,45 @@ struct MeasureArguments {
   std::string only;  ///< name of a replicate; empty for all
   int threads = 0;
 };
+
+/// Number of records to which measures were added, and number of records that were left unchanged because of a problem.
+struct AddingTally {
+  std::size_t added = 0, unchanged = 0;
+};
+
+/// Adds measures to the records in `additions`, on `threads` threads. It shows the progress, and prints a warning for
+/// each record that remains unchanged. `memory_bytes` is the available memory.
+AddingTally add_measures(const Store& store, const Additions& additions, int threads, double memory_bytes,
+                         const std::stop_token& stop, Console& console) {
+  AddingTally tally;
+  for (const auto& spec : additions.failed) {
+    store.write_added(spec, read_record(store.directory(), replicate_name(spec)));
+    ++tally.added;
+  }
+  const auto count = additions.measured.size();
+  double work = 0, largest = 0;
+  for (const auto& spec : additions.measured) {
+    const auto cost = estimated_cost(spec, false);
+    work += cost.cpu_seconds;
+    largest = std::max(largest, cost.memory_bytes);
+  }
+  console.begin(static_cast<int>(count), work);
+  const NextReplicate next = [&, next_index = std::size_t{0}]() mutable {
+    return next_index < count ? std::optional(additions.measured[next_index++]) : std::nullopt;
+  };
+  const GraphOptions options{threads, replicates_in_flight(threads, largest, memory_bytes), stop, {}};
+  Adder adder(store, additions.measured);
+  run_graph(next, adder.stages(), options, [&](const Outcome& outcome) {
+    if (outcome.interrupted) return;
+    const auto problem = adder.finish(outcome);
+    if (problem) console.warn(fmt::format("{}; the record of {} is unchanged", *problem, replicate_name(outcome.spec)));
+    ++(problem ? tally.unchanged : tally.added);
+    console.finished(estimated_cost(outcome.spec, false).cpu_seconds, problem.has_value());
+    console.tick(replicate_name(outcome.spec));
+  });
+  console.end();
+  return tally;
+}
 
 /// Parses names of measures, separated by commas. Returns an error text if a name is unknown.
 std::optional<std::string> read_measures(const std::string& text, std::vector<Measure>& list) {

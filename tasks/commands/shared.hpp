@@ -46,6 +46,9 @@ DirectoryLock lock_results(const std::string& directory, DirectoryLock::Kind kin
 /// writes.
 std::string version_text();
 
+/// Writes a text to the file `output`, or prints it if `output` is empty.
+void print_or_write(const std::string& text, const std::string& output);
+
 /// A path as one argument of a shell command, in quotation marks if it has characters with a meaning in a shell.
 std::string shell_argument(const std::string& path);
 
