@@ -21,8 +21,8 @@ CHOICES = (1, 2, 4)  # factors of the fit window of φ_J, whose effect is the sy
 
 def base_of(solid):
     """Compression protocol of the main studies, which is the default of isojam."""
-    return {"target_before_relaxation": False, "consolidation_step": 0.02,
-            "consolidation_evaluations": 2000 if solid == "tetrahedron" else 500}
+    return {"target_before_relaxation": False, "compression_step": 0.02,
+            "compression_evaluations": 2000 if solid == "tetrahedron" else 500}
 
 
 def each(states, names, function):

@@ -46,7 +46,7 @@ COLUMNS = {
        for key, full in (("contacts", "contacts"), ("tilts", "stiff_tilts"))}}
 FITS = {"cut_ff": "contacts/face_face_fit", "cut_ef": "contacts/edge_face_fit"}
 # Parameters of the protocol that a study may vary.
-VARIED = ("target_before_relaxation", "consolidation_step", "consolidation_evaluations")
+VARIED = ("target_before_relaxation", "compression_step", "compression_evaluations")
 HISTOGRAMS_AT = (0.0025, 0.001)  # Δφ of histograms beside those of the tables
 SPECTRUM_AT = 0.01  # Δφ of the spectra, the same for all solids
 BALANCED = 1e-3  # largest residual of a backbone whose ranks are used: the removed particles carry no force

@@ -1,6 +1,9 @@
 #include "tasks/io/describe.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace isojam {
@@ -47,6 +50,7 @@ void write_field(Json& object, const FieldEntry& field, const MemberRef& member)
   auto json = value_of(member);
   if (std::holds_alternative<Custom>(member) && json.is_null()) return;
   if (field.presence == Presence::if_true && json == false) return;
+  if (field.presence == Presence::if_any && json.empty()) return;
   object[field.key] = std::move(json);
 }
 
@@ -80,12 +84,28 @@ void read_value(const JsonPlace& place, const FieldEntry& field, const MemberRef
       [&](const Custom& value) { value.read(place); });
 }
 
+std::string allowed_length(const Many& list) {
+  if (list.least == list.most) return fmt::format("a list of {}", list.least);
+  if (list.most < std::numeric_limits<std::size_t>::max())
+    return fmt::format("a list of {} to {}", list.least, list.most);
+  return fmt::format("a list of {} or more", list.least);
+}
+
 void read_list(const JsonPlace& place, const FieldEntry& field, const Many& list) {
   const auto count = place.expect_list("a list");
-  if (list.length && count != *list.length)
-    place.refuse("the list has the wrong length", "a list of " + std::to_string(*list.length));
+  if (count < list.least || count > list.most)
+    place.refuse(count == 0 ? "the list is empty" : "the list has the wrong length", allowed_length(list));
   list.resize(count);
-  for (std::size_t k = 0; k < count; ++k) place.attempt([&] { read_value(place.at(k), field, list.at(k)); });
+  const auto first = place.value().begin();
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto entry = place.at(k);
+    place.attempt([&] {
+      read_value(entry, field, list.at(k));
+      const auto earlier = first + static_cast<std::ptrdiff_t>(k);
+      if (list.all_different && std::find(first, earlier, entry.value()) != earlier)
+        entry.refuse_with_remedy(fmt::format("{} is given twice", compact(entry.value())), "give each value once");
+    });
+  }
 }
 
 double not_a_finite_number(const JsonPlace& object, const FieldEntry& field) {
@@ -133,7 +153,9 @@ Json written(const Fields& fields) {
 }
 
 void read_into(const JsonPlace& place, const Fields& fields, Missing missing) {
-  place.expect_object("an object");
+  for (const auto& removed : fields.removed)
+    place.read_if_any(removed.first,
+                      [&](const JsonPlace& value) { value.refuse_with_remedy("the key was removed", removed.second); });
   std::vector<std::string> reasons;
   std::vector<std::string_view> known;
   for (const auto& field : fields.list) {
@@ -154,5 +176,16 @@ void read_into(const JsonPlace& place, const Fields& fields, Missing missing) {
 }
 
 void read_into(const JsonPlace& value, const FieldEntry& entry) { read_value(value, entry, entry.member); }
+
+Json written(const FieldEntry& entry) { return value_of(entry.member); }
+
+void copy_value(const MemberRef& from, const MemberRef& to) {
+  match(
+      to, [&](double* value) { *value = *std::get<double*>(from); },
+      [&](bool* value) { *value = *std::get<bool*>(from); },
+      [&](std::string* value) { *value = *std::get<std::string*>(from); },
+      [&](const Integer& value) { value.set(std::get<Integer>(from).get()); },
+      [&](const Choice& value) { value.set(std::get<Choice>(from).get()); }, [](const auto&) { assert(false); });
+}
 
 }  // namespace isojam

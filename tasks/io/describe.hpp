@@ -93,8 +93,9 @@ struct Many {
   std::function<std::size_t()> size;
   std::function<void(std::size_t)> resize;
   std::function<MemberRef(std::size_t)> at;
-  std::function<MemberRef()> example;  ///< an element with default values
-  std::optional<std::size_t> length;
+  std::function<MemberRef()> example;                                     ///< an element with default values
+  std::size_t least = 0, most = std::numeric_limits<std::size_t>::max();  ///< allowed numbers of elements
+  bool all_different = false;                                             ///< true if no two elements may be equal
 };
 struct Maybe {
   std::function<bool()> has;
@@ -103,7 +104,8 @@ struct Maybe {
   std::function<MemberRef()> example;  ///< a value with default values
   std::string* reason = nullptr;       ///< of a Reasoned value
 };
-/// A value that no struct describes, for example a choice between a number and a list. It has its own schema.
+/// A value that no struct describes, for example a choice between a number and a list. It has its own schema, which
+/// may contain definitions.
 struct Custom {
   std::function<Json()> write;  ///< null if the field is absent
   std::function<void(const JsonPlace&)> read;
@@ -119,6 +121,7 @@ enum class Presence : std::uint8_t {
   always,    ///< a file without the field is refused
   optional,  ///< if a file lacks the field, it keeps the value of a default-constructed object
   if_true,   ///< written only if the bool is true
+  if_any,    ///< written only if the list has entries
 };
 
 /// All that is known of a field. Its functions can be chained behind the call that adds it.
@@ -136,7 +139,14 @@ struct FieldEntry {
   FieldEntry& range(const Range& range) { return allowed = range, *this; }
   FieldEntry& optional() { return presence = Presence::optional, *this; }
   FieldEntry& if_true() { return presence = Presence::if_true, *this; }
+  FieldEntry& if_any() { return presence = Presence::if_any, *this; }
   FieldEntry& finite() { return finite_only = true, *this; }
+  /// For a list: the allowed numbers of elements, and that they all differ.
+  FieldEntry& length(std::size_t least, std::size_t most = std::numeric_limits<std::size_t>::max()) {
+    std::get<Many>(member).least = least;
+    return std::get<Many>(member).most = most, *this;
+  }
+  FieldEntry& distinct() { return std::get<Many>(member).all_different = true, *this; }
   FieldEntry& detail() { return apart = true, *this; }
   FieldEntry& column(const Column& column) { return quantity = column, *this; }
 };
@@ -155,20 +165,26 @@ class Fields {
   /// Adds a field.
   template <class T>
   FieldEntry& operator()(std::string_view key, T& member, std::string_view meaning) {
-    return list.emplace_back(FieldEntry{std::string(key), std::string(meaning), ref_to(member)});
+    return this->member(key, ref_to(member), meaning);
   }
   /// Adds a field whose fields `describe` adds, for a struct whose description needs more than the object.
   FieldEntry& nested(std::string_view key, std::function<void(Fields&)> describe, std::string_view meaning) {
-    return list.emplace_back(FieldEntry{std::string(key), std::string(meaning), Nested{std::move(describe)}});
+    return member(key, Nested{std::move(describe)}, meaning);
   }
   FieldEntry& custom(std::string_view key, Custom value, std::string_view meaning) {
-    return list.emplace_back(FieldEntry{std::string(key), std::string(meaning), std::move(value)});
+    return member(key, std::move(value), meaning);
+  }
+  /// Adds a field with a reference that the caller has made.
+  FieldEntry& member(std::string_view key, MemberRef ref, std::string_view meaning) {
+    return list.emplace_back(FieldEntry{std::string(key), std::string(meaning), std::move(ref)});
   }
 
   std::string type_name, type_meaning;
   std::vector<FieldEntry> list;
   /// The error for the old name of a key suggests the new one.
-  std::vector<std::pair<std::string, std::string>> renamed;
+  std::vector<std::pair<std::string, std::string>> renamed = {};
+  /// The error for a key that was removed says what to do instead.
+  std::vector<std::pair<std::string, std::string>> removed = {};
 };
 
 // ---- Writing and reading --------------------------------------------------------------------------------------------
@@ -220,8 +236,11 @@ T read_document(const Json& document, const std::string& file) {
   problems.refuse_any(document);
   return object;
 }
-/// Reads the value of one field, whose name is that of `entry`.
+/// Reads the value of one field, and writes it.
 void read_into(const JsonPlace& value, const FieldEntry& entry);
+Json written(const FieldEntry& entry);
+/// Copies the value of a number, a bool, a text or an enumerator to the same member of another object.
+void copy_value(const MemberRef& from, const MemberRef& to);
 
 // ---- Kinds of members -----------------------------------------------------------------------------------------------
 namespace kinds {
@@ -232,6 +251,23 @@ MemberRef example_of() {
   return ref_to(example);
 }
 
+/// One of some enumerators.
+template <const auto& values, NamedEnum T>
+Choice among(T& member) {
+  static constexpr auto names = [] {
+    std::array<std::string_view, values.size()> list{};
+    for (std::size_t k = 0; k < list.size(); ++k) list[k] = to_string(values[k]);
+    return list;
+  }();
+  return {names,
+          [&member] {
+            std::size_t k = 0;
+            while (values[k] != member) ++k;
+            return k;
+          },
+          [&member](std::size_t k) { member = values[k]; }};
+}
+
 template <class T>
 struct Kind {
   static MemberRef of(T& member) requires std::integral<T> {
@@ -239,15 +275,7 @@ struct Kind {
                    [&member](std::int64_t value) { member = static_cast<T>(value); },
                    static_cast<double>(std::numeric_limits<T>::max())};
   }
-  static MemberRef of(T& member) requires NamedEnum<T> {
-    return Choice{all_names<T>,
-                  [&member] {
-                    std::size_t k = 0;
-                    while (all_of<T>[k] != member) ++k;
-                    return k;
-                  },
-                  [&member](std::size_t k) { member = all_of<T>[k]; }};
-  }
+  static MemberRef of(T& member) requires NamedEnum<T> { return among<all_of<T>>(member); }
   static MemberRef of(T& member) requires Described<T> {
     return Nested{[&member](Fields& fields) { describe(fields, member); }};
   }
@@ -256,14 +284,18 @@ template <class T>
 struct Kind<std::vector<T>> {
   static MemberRef of(std::vector<T>& member) {
     return Many{[&member] { return member.size(); }, [&member](std::size_t size) { member.resize(size); },
-                [&member](std::size_t k) { return ref_to(member[k]); }, example_of<T>, std::nullopt};
+                [&member](std::size_t k) { return ref_to(member[k]); }, example_of<T>};
   }
 };
 template <class T, std::size_t n>
 struct Kind<std::array<T, n>> {
   static MemberRef of(std::array<T, n>& member) {
-    return Many{[] { return n; }, [](std::size_t) {}, [&member](std::size_t k) { return ref_to(member[k]); },
-                example_of<T>, n};
+    return Many{[] { return n; },
+                [](std::size_t) {},
+                [&member](std::size_t k) { return ref_to(member[k]); },
+                example_of<T>,
+                n,
+                n};
   }
 };
 template <class T>

@@ -47,7 +47,7 @@ std::optional<Fields> fields_in(const MemberRef& member) {
 
 // ---- Schemas --------------------------------------------------------------------------------------------------------
 Json exact(double value) {
-  if (std::floor(value) == value && std::abs(value) < count_range.high) return static_cast<std::int64_t>(value);
+  if (std::floor(value) == value && std::abs(value) <= count_range.high) return static_cast<std::int64_t>(value);
   return value;
 }
 
@@ -55,17 +55,37 @@ Json number_schema(const FieldEntry& field, const Integer* integer) {
   Json json{{"type", integer ? "integer" : "number"}};
   const auto range = field.allowed.value_or(integer ? count_range : any_number);
   if (range.low > any_number.low) json[range.low_excluded ? "exclusiveMinimum" : "minimum"] = exact(range.low);
-  if (range.high < (integer ? integer->most : any_number.high) && range.high < count_range.high)
-    json[range.high_excluded ? "exclusiveMaximum" : "maximum"] = exact(range.high);
+  if (field.allowed && range.high < any_number.high)
+    json[range.high_excluded ? "exclusiveMaximum" : "maximum"] =
+        exact(integer ? std::min(range.high, integer->most) : range.high);
   return json;
 }
 
 Json object_schema(const Fields& fields, Json& definitions);
 
+/// Moves the definitions in a schema, and in the schemas inside it, to those of the document.
+void move_definitions(Json& schema, Json& definitions) {
+  if (!schema.is_structured()) return;
+  for (auto& part : schema) move_definitions(part, definitions);
+  if (!schema.is_object() || !schema.contains("definitions")) return;
+  definitions.update(schema.at("definitions"));
+  schema.erase("definitions");
+}
+
+/// The value that an optional field has if a file lacks it. null if the field is an object or a file cannot state it.
+Json initial_value(const FieldEntry& field) {
+  if (field.presence != Presence::optional || std::holds_alternative<Nested>(field.member)) return nullptr;
+  auto value = written(field);
+  if (value.is_number() && field.allowed && !field.allowed->contains(value.get<double>())) return nullptr;
+  return value;
+}
+
 Json value_schema(const FieldEntry& field, const MemberRef& member, Json& definitions) {
   if (const auto* const list = std::get_if<Many>(&member)) {
     Json json{{"type", "array"}, {"items", value_schema(field, list->example(), definitions)}};
-    if (list->length) json["minItems"] = json["maxItems"] = *list->length;
+    if (list->least > 0) json["minItems"] = list->least;
+    if (list->most < std::numeric_limits<std::size_t>::max()) json["maxItems"] = list->most;
+    if (list->all_different) json["uniqueItems"] = true;
     return json;
   }
   if (const auto* const object = std::get_if<Nested>(&member)) {
@@ -81,7 +101,11 @@ Json value_schema(const FieldEntry& field, const MemberRef& member, Json& defini
     return {{"$ref", "#/definitions/" + fields.type_name}};
   }
   if (const auto* const choice = std::get_if<Choice>(&member)) return {{"enum", choice->names}};
-  if (const auto* const custom = std::get_if<Custom>(&member)) return custom->schema;
+  if (const auto* const custom = std::get_if<Custom>(&member)) {
+    auto json = custom->schema;
+    move_definitions(json, definitions);
+    return json;
+  }
   if (std::holds_alternative<std::string*>(member)) return {{"type", "string"}};
   if (std::holds_alternative<bool*>(member))
     return field.presence == Presence::if_true ? Json{{"const", true}} : Json{{"type", "boolean"}};
@@ -102,10 +126,7 @@ Json field_schema(const FieldEntry& field, const Core& core, Json& definitions) 
   // Beside $ref, draft-07 ignores all other keys.
   if (value.contains("$ref") && !field.meaning.empty()) value = {{"allOf", Json::array({std::move(value)})}};
   json.update(value);
-  if (field.presence == Presence::optional) {
-    const auto initial = written(Fields{"", "", {field}, {}});
-    if (initial.contains(field.key)) json["default"] = initial.at(field.key);
-  }
+  if (const auto initial = initial_value(field); !initial.is_null()) json["default"] = initial;
   return json;
 }
 
@@ -175,9 +196,8 @@ void add_sections(const Fields& fields, const std::string& path, std::vector<Fie
     if (core.nullable) row.kind += " or null";
     if (core.optional && field.presence == Presence::always) row.kind += ", optional";
     if (field.presence == Presence::optional) {
-      const auto initial = written(Fields{"", "", {field}, {}});
-      row.kind +=
-          initial.contains(field.key) ? fmt::format(", default {}", initial.at(field.key).dump()) : ", optional";
+      const auto initial = initial_value(field);
+      row.kind += initial.is_null() ? ", optional" : fmt::format(", default {}", initial.dump());
     }
     sections[place].rows.push_back(std::move(row));
   }
@@ -189,6 +209,13 @@ Json schema_of(const Fields& fields, std::string_view title) {
   Json json{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}}, definitions = Json::object();
   if (!fields.type_meaning.empty()) json["description"] = fields.type_meaning;
   json.update(object_schema(fields, definitions));
+  if (!definitions.empty()) json["definitions"] = std::move(definitions);
+  return json;
+}
+
+Json object_schema(const Fields& fields) {
+  Json definitions = Json::object();
+  auto json = object_schema(fields, definitions);
   if (!definitions.empty()) json["definitions"] = std::move(definitions);
   return json;
 }

@@ -11,6 +11,8 @@ namespace isojam {
 
 /// The draft-07 schema of a document with these fields. Types with a name are among its definitions.
 Json schema_of(const Fields& fields, std::string_view title);
+/// The schema of an object with these fields, for the schema of a Custom field.
+Json object_schema(const Fields& fields);
 
 /// A field for people.
 struct FieldRow {

@@ -63,6 +63,14 @@ void Problems::note(const InputError& error) {
   }
 }
 
+bool Problems::concern(std::string_view pointer) const {
+  const auto contains = [](std::string_view outer, std::string_view inner) {
+    return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '/');
+  };
+  return std::any_of(settled_.begin(), settled_.end(),
+                     [&](const std::string& wrong) { return contains(wrong, pointer) || contains(pointer, wrong); });
+}
+
 void Problems::refuse_any(const Json& document) const {
   if (found_.empty()) return;
   Order order;

@@ -49,6 +49,8 @@ class Problems {
   void note(const InputError& error);
   /// Suppresses later errors at this JSON pointer, because they are consequences of an error at another pointer.
   void settle(std::string pointer) { settled_.insert(std::move(pointer)); }
+  /// True if there is an error at this JSON pointer, inside this value or around it.
+  bool concern(std::string_view pointer) const;
   /// If errors were collected, throws one InputError with all of them, in the order of the document. After the first
   /// 100 errors, it states only how many more there are. If a required key is missing, the error is listed at
   /// the position of the object that lacks this key.
@@ -81,6 +83,12 @@ class JsonPlace {
   [[noreturn]] void refuse_with_remedy(std::string problem, std::string remedy) const;
   /// Throws an InputError that states the value and the allowed values.
   [[noreturn]] void not_accepted(std::string_view allowed) const;
+
+  /// False if errors are collected, and there is one at this value, inside it or around it. `inner` is the pointer from
+  /// this value to one inside it.
+  bool is_sound(std::string_view inner = "") const {
+    return !problems_ || !problems_->concern(pointer_ + std::string(inner));
+  }
 
   /// Calls `work`, and returns true if it does not throw. If it throws an InputError and errors are collected, adds the
   /// error to `problems` and returns false. If errors are not collected, the exception is not caught.

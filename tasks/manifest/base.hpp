@@ -20,7 +20,7 @@ Json read_base(const JsonPlace& place);
 
 /// Checks that each parameter in `base` is one of the `swept` parameters, and that its value is one of the swept
 /// values. Otherwise throws InputError. `place` is the location of the base, for error messages.
-void check_base(const JsonPlace& place, const Json& base, const std::vector<SweptField>& swept);
+void check_base(const JsonPlace& place, const Json& base, const SweptValues& swept);
 
 /// Parses the value of the option --base: "none", or one or more "parameter=value" separated by commas. "none" gives an
 /// empty base. Returns an error message if the text is invalid; otherwise sets `base` and returns nullopt.

@@ -4,10 +4,12 @@
 
 namespace isojam {
 
-/// Reads /protocol/by_solid. Then sets two parameters if the manifest does not: consolidation_evaluations of
-/// tetrahedra, and max_density of cubes, which becomes densest_compression(). max_density is not set if a particle
-/// could then touch two images of another one. `manifest` must already have its sweep, its protocol and its minimiser.
-void read_by_solid(const JsonPlace& root, Manifest& manifest);
+/// The field /protocol/by_solid. The sweep must be read before it.
+Custom by_solid_field(Manifest& manifest);
+
+/// Sets two parameters if the manifest does not: compression_evaluations of tetrahedra, and max_density of cubes, which
+/// becomes densest_compression(). max_density is not set if a particle could then touch two images of another one.
+void add_defaults_of_solids(const JsonPlace& root, Manifest& manifest);
 
 /// Density above which cubes always have at least the target energy, plus the length of a strain step. If max_density
 /// is this sum, compression can always reach the target energy. N particles of unit volume in a cell of volume N/φ

@@ -14,10 +14,11 @@ namespace {
 void refuse_other_solids(const JsonPlace& root, const Manifest& manifest) {
   const auto list = root.at("sweep").at("solid");
   for (const auto& mixture : manifest.solids) {
+    const auto place = place_of_entry(list, Json(to_string(mixture)));
     for (const auto& kind : mixture.kinds()) {
       if (can_grow(*kind.solid)) continue;
-      list.attempt([&] {
-        list.refuse_with_remedy(
+      place.attempt([&] {
+        place.refuse_with_remedy(
             fmt::format("cohesion is not possible for {}: its faces have different distances from the centroid",
                         to_string(kind.solid)),
             "remove the solid or the cohesion");
@@ -37,9 +38,9 @@ void refuse_measures(const JsonPlace& root, const Manifest& manifest) {
   for (const auto what : manifest.measures) {
     const auto problem = problem_at_zero_pressure(what);
     if (!problem) continue;
-    root.attempt([&] {
-      root.at("measure").refuse_with_remedy(*problem,
-                                            "remove the measure, or set /protocol/cohesion/until to \"decompression\"");
+    const auto place = place_of_entry(root.at("measure"), Json(to_string(what)));
+    place.attempt([&] {
+      place.refuse_with_remedy(*problem, "remove the measure, or set /protocol/cohesion/until to \"decompression\"");
     });
   }
 }
@@ -63,17 +64,19 @@ void check_cohesion(const JsonPlace& root, const Manifest& manifest, const std::
     if (any([](const JamOptions& options) {
           return options.cohesion.acts() && options.compression.target_before_relaxation;
         }))
-      root.refuse_with_remedy("cohesion is not possible with target_before_relaxation",
+      place_of(root, "target_before_relaxation")
+          .refuse_with_remedy("cohesion is not possible with target_before_relaxation",
                               "set target_before_relaxation to false");
   });
   if (!any(ends_at_zero_pressure)) return;
   root.attempt([&] {
     if (any([](const JamOptions& options) { return options.cycles > 0; }))
-      root.refuse_with_remedy("cycles are not possible at zero pressure, where there is no decompression",
+      place_of(root, "cycles")
+          .refuse_with_remedy("cycles are not possible at zero pressure, where there is no decompression",
                               "remove the cycles, or set /protocol/cohesion/until to \"decompression\"");
   });
-  refuse_measures(root, manifest);
-  root.attempt([&] { refuse_goal(root, manifest); });
+  if (root.is_sound("/measure")) refuse_measures(root, manifest);
+  if (root.is_sound("/replicates/quantity")) root.attempt([&] { refuse_goal(root, manifest); });
 }
 
 std::optional<std::string> problem_of_measures(const Manifest& manifest, const std::vector<Measure>& measures) {

@@ -11,18 +11,13 @@
 #include "engine/packing/mixture/mixture.hpp"
 #include "engine/solve/jam.hpp"
 #include "tasks/io/json.hpp"
+#include "tasks/manifest/parameters.hpp"
 #include "tasks/manifest/start.hpp"
 #include "tasks/measure/flag.hpp"
 #include "tasks/measure/measure.hpp"
 #include "tasks/packings/definitions.hpp"
 
 namespace isojam {
-
-/// A swept parameter of the protocol or the minimiser.
-struct SweptField {
-  std::string name;          ///< name, for find_field()
-  std::vector<Json> values;  ///< values as field_value() returns them, ascending and all different
-};
 
 /// Goal of a sweep point: a mean with a narrow confidence interval. A point that has reached its goal needs no more
 /// replicates.
@@ -41,18 +36,24 @@ struct Replicates {
   bool operator==(const Replicates&) const = default;
 };
 
+inline constexpr double most_replicates = 1e6;  ///< of a sweep point
+
+/// The measures of a manifest that does not name any.
+std::vector<Measure> usual_measures();
+
 /// The content of a manifest. All values have been checked.
 struct Manifest {
   std::string name;
   std::uint64_t seed = 0;
-  std::vector<Mixture> solids;    ///< in ascending order
-  std::vector<int> particles;     ///< in ascending order
-  std::vector<SweptField> swept;  ///< swept parameters, sorted by name
+  std::vector<Mixture> solids;  ///< in ascending order
+  std::vector<int> particles;   ///< in ascending order
+  /// key: the name of a swept parameter; value: options with its values, ascending and all different
+  std::map<std::string, std::vector<JamOptions>, std::less<>> swept;
   Replicates replicates;
   JamOptions protocol;  ///< options of the protocol and of the minimiser
   /// key: the name of a solid in `solids`; value: the parameters of the protocol with their values for this solid only
-  std::map<std::string, Json, std::less<>> by_solid{};
-  std::vector<Measure> measures;
+  std::map<std::string, OptionSet, std::less<>> by_solid{};
+  std::vector<Measure> measures = usual_measures();
   MeasureOptions measuring;
   /// true: paths are kept, with the packings of all states of a decompression; false: only the nearest state is kept
   bool keep_path = false;
@@ -64,22 +65,25 @@ struct Manifest {
   SolidDefinitions definitions{};  ///< all solids that the user defined, also those that are not swept
 };
 
-/// One combination of values of the swept parameters.
-struct OptionSet {
-  Json parameters;  ///< the swept parameters, sorted by name, with their values
-  /// all options of the protocol and the minimiser, with the values in `parameters`
-  JamOptions options;
-};
+/// The fields of a manifest, in the order of its canonical form.
+void describe(Fields& field, Manifest& manifest);
 
-/// All combinations of the values of the swept parameters. If no parameter is swept, there is one combination, whose
-/// `parameters` are empty.
+/// Sorts the lists whose order has no meaning.
+void sort_lists(Manifest& manifest);
+
+/// The swept parameters with their values as JSON.
+using SweptValues = std::map<std::string, std::vector<Json>>;
+SweptValues swept_values(const Manifest& manifest);
+
+/// All combinations of the values of the swept parameters, each with all options of the protocol and the minimiser. If
+/// no parameter is swept, there is one combination, whose `parameters` are empty.
 std::vector<OptionSet> option_sets(const Manifest& manifest);
 
 /// The options in `set`, with the values that the manifest has only for this solid.
 JamOptions options_of(const Manifest& manifest, const OptionSet& set, const Mixture& solid);
 
-/// Parses a manifest and checks it in stages: first the JSON syntax and the checksum, then each value, then
-/// combinations of values, and last the files of /start if it has no digests. Throws one InputError with all errors of
+/// Parses a manifest and checks it in stages: first the JSON syntax and the checksum, then each value and combinations of
+/// values without errors, and last the files of /start if it has no digests. Throws one InputError with all errors of
 /// the first stage that finds an error. `file` is the name of the manifest in error messages; paths in /start are
 /// relative to its folder.
 Manifest parse_manifest(std::string_view text, const std::string& file);

@@ -12,11 +12,8 @@
 namespace isojam {
 namespace {
 
-/// Place of a particle number in the user's list.
 JsonPlace place_of_particles(const JsonPlace& root, int particles) {
-  const auto list = root.at("sweep").at("particles");
-  const auto found = std::find(list.value().begin(), list.value().end(), Json(particles));
-  return list.at(static_cast<std::size_t>(found - list.value().begin()));
+  return place_of_entry(root.at("sweep").at("particles"), particles);
 }
 
 /// The largest density, rounded down to four decimals, at which a cell with so many particles is large enough.

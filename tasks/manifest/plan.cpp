@@ -6,8 +6,6 @@
 #include <charconv>
 
 #include "tasks/io/hash.hpp"
-#include "tasks/manifest/fields.hpp"
-#include "tasks/manifest/shear_settings.hpp"
 #include "tasks/packings/mixture_json.hpp"
 
 namespace isojam {
@@ -93,26 +91,52 @@ RandomStream replicate_stream(const ReplicateSpec& spec, Purpose purpose) {
                       static_cast<std::uint64_t>(spec.replicate), static_cast<std::uint64_t>(purpose)};
 }
 
+void describe(Fields& field, ReplicateSpec& spec) {
+  field("particles", spec.particles, "Number N of particles.").range({1, 100000});
+  field.custom("parameters",
+               {[&spec] { return spec.parameters; },
+                [&spec](const JsonPlace& place) { spec.parameters = place.value(); },
+                {{"type", "object"}},
+                "object"},
+               "Values of the swept parameters, without `solid` and `particles`.");
+  field("replicate", spec.replicate, "Number of the replicate at its sweep point, counted from 0.");
+  describe(field, spec.options);
+  field("measure", spec.measures, "Names of the measures.").distinct();
+  field("modes", spec.measuring.modes, "Number of vibrational modes computed at each end of the spectrum.");
+  field("shear", spec.measuring.shear,
+        "All keys of `shear` in the manifest. Keys that the manifest leaves out have their default values.");
+  const auto start_of = [](Start& start, std::size_t replicate) {
+    return Nested{[&start, replicate](Fields& of) {
+      of("digest", start.files[replicate].digest, "Digest of the file.");
+      of("frame", start.frame, "Index of the frame in the file, counted from 0. The value -1 means the last frame.")
+          .range({-1e9, 1e9});
+      of("density", start.density,
+         "Density to which the packing was strained before the protocol; absent if it kept the density of the file.")
+          .range({0, 1, true})
+          .finite();
+      of("stage", start.stage,
+         "First stage of the protocol. `consolidation`: The packing was first compressed to the target energy. "
+         "`expansion`: The packing was treated as jammed and only decompressed.");
+    }};
+  };
+  field.member("start",
+               Maybe{[&spec] { return spec.start.has_value(); },
+                     [&spec, start_of]() -> MemberRef {
+                       if (!spec.start) spec.start.emplace().files.resize(static_cast<std::size_t>(spec.replicate) + 1);
+                       return start_of(*spec.start, static_cast<std::size_t>(spec.replicate));
+                     },
+                     [&spec] { spec.start.reset(); },
+                     [start_of]() -> MemberRef {
+                       static Start example{{StartFile{}}};
+                       return start_of(example, 0);
+                     }},
+               "Initial configuration from a file; absent if the initial configuration was random.");
+}
+
 Json to_json(const ReplicateSpec& spec) {
   Json json;
   put_mixture(json, spec.solid);
-  json["particles"] = spec.particles;
-  json["parameters"] = spec.parameters;
-  json["replicate"] = spec.replicate;
-  for (const auto group : {Group::protocol, Group::minimiser}) {
-    json[std::string(to_string(group))] = group_values(group, spec.options);
-  }
-  json["measure"] = Json::array();
-  for (const auto measure : spec.measures) json["measure"].push_back(to_string(measure));
-  json["modes"] = spec.measuring.modes;
-  json["shear"] = shear_json(spec.measuring.shear);
-  if (spec.start) {
-    const auto& file = spec.start->files[static_cast<std::size_t>(spec.replicate)];
-    json["start"]["digest"] = file.digest;
-    json["start"]["frame"] = file.frame;
-    if (spec.start->density) json["start"]["density"] = *spec.start->density;
-    json["start"]["stage"] = to_string(spec.start->stage);
-  }
+  json.update(written(spec));
   return json;
 }
 

@@ -76,7 +76,9 @@ std::string replicate_name(const ReplicateSpec& spec);
 /// configuration, and the spread between packings does not hide the effect of a parameter.
 RandomStream replicate_stream(const ReplicateSpec& spec, Purpose purpose);
 
-/// The specification in the form in which records store it.
+/// The fields in the form in which records store them, without those of put_mixture().
+void describe(Fields& field, ReplicateSpec& spec);
+/// All fields in this form.
 Json to_json(const ReplicateSpec& spec);
 
 }  // namespace isojam

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 
 #include "engine/packing/energy.hpp"
@@ -87,45 +86,79 @@ void check_density(const JsonPlace& place, const Start& start, const Packing& pa
   }
 }
 
-}  // namespace
-
-Start read_start(const JsonPlace& place) {
-  place.expect_keys(std::array<std::string_view, 6>{"packing", "frame", "density", "stage", "types", "digests"});
-  Start start;
-  const auto packing = place.at("packing");
-  if (packing.value().is_array()) {
-    const auto count = packing.expect_entries(most_files, fmt::format("1 to {} paths", most_files));
-    for (std::size_t k = 0; k < count; ++k) start.files.push_back(read_file_place(packing.at(k)));
-  } else {
-    start.files.push_back(read_file_place(packing));
-  }
-  const int frame = place.has("frame") ? static_cast<int>(place.at("frame").integer({-1e9, 1e9})) : -1;
-  for (auto& file : start.files) file.frame = frame;
-  if (place.has("digests")) {
-    const auto digests = place.at("digests");
-    digests.expect_length(start.files.size(), "one digest for each file");
-    for (std::size_t k = 0; k < start.files.size(); ++k) start.files[k].digest = digests.at(k).text();
-  }
-  if (place.has("density")) start.density = place.at("density").number({0, 1, true});
-  if (place.has("stage")) start.stage = place.at("stage").choice<JamStage>();
-  if (place.has("types")) {
-    const auto types = place.at("types");
-    types.expect_object("an object of types and names of solids");
-    for (const auto& item : types.value().items())
-      start.types.emplace(item.key(), types.at(item.key()).text("the name of a solid"));
-  }
-  return start;
+void read_packing(const JsonPlace& place, Start& start) {
+  start.files.clear();
+  if (!place.value().is_array()) return start.files.push_back(read_file_place(place));
+  const auto count = place.expect_entries(most_files, fmt::format("1 to {} paths", most_files));
+  for (std::size_t k = 0; k < count; ++k) place.attempt([&] { start.files.push_back(read_file_place(place.at(k))); });
 }
 
-Json to_json(const Start& start) {
-  Json json;
-  for (const auto& file : start.files) json["packing"].push_back(file.path);
-  json["frame"] = start.files.front().frame;
-  if (start.density) json["density"] = *start.density;
-  json["stage"] = to_string(start.stage);
-  if (!start.types.empty()) json["types"] = start.types;
-  for (const auto& file : start.files) json["digests"].push_back(file.digest);
-  return json;
+Custom packing_field(Start& start) {
+  const auto write = [&start] {
+    Json list = Json::array();
+    for (const auto& file : start.files) list.push_back(file.path);
+    return list;
+  };
+  const Json path{{"type", "string"}};
+  return {write,
+          [&start](const JsonPlace& place) { read_packing(place, start); },
+          {{"oneOf", {path, {{"type", "array"}, {"minItems", 1}, {"maxItems", most_files}, {"items", path}}}}},
+          "path or list of paths"};
+}
+
+Custom types_field(Start& start) {
+  return {[&start] { return start.types.empty() ? Json() : Json(start.types); },
+          [&start](const JsonPlace& place) {
+            place.expect_object("an object of types and names of solids");
+            for (const auto& item : place.value().items())
+              place.read(item.key(),
+                         [&](const JsonPlace& name) { start.types[item.key()] = name.text("the name of a solid"); });
+          },
+          {{"type", "object"}, {"additionalProperties", {{"type", "string"}}}},
+          "object of types and names of solids"};
+}
+
+Custom digests_field(Start& start) {
+  const auto write = [&start] {
+    Json list;
+    for (const auto& file : start.files) list.push_back(file.digest);
+    return list;
+  };
+  const auto read = [&start](const JsonPlace& place) {
+    place.expect_length(start.files.size(), "one digest for each file");
+    for (std::size_t k = 0; k < start.files.size(); ++k) start.files[k].digest = place.at(k).text();
+  };
+  return {write, read, {{"type", "array"}, {"items", {{"type", "string"}}}}, "list of texts"};
+}
+
+}  // namespace
+
+void describe(Fields& field, Start& start) {
+  field.custom("packing", packing_field(start),
+               "A file, or a list with one file for each replicate. The format of a file is isojam's own JSON format, "
+               "GSD with HOOMD-blue's schema, or extended XYZ. Paths are relative to the manifest.");
+  field("frame", start.frame, "Index of the frame in the file, counted from 0. The value -1 means the last frame.")
+      .range({-1e9, 1e9})
+      .optional();
+  field("density", start.density,
+        "Density to which the packing is strained before the protocol starts. Without this key, the packing keeps the "
+        "density that it has in the file.")
+      .range({0, 1, true})
+      .finite();
+  field("stage", start.stage,
+        "First stage of the protocol. `consolidation`: The packing is first compressed to the target energy. "
+        "`expansion`: The packing is treated as jammed and only decompressed.")
+      .optional();
+  field
+      .custom("types", types_field(start),
+              "Names of solids for the types of particles whose shapes are not in the files, for example {\"A\": "
+              "\"octahedron\"}. Without an entry, the name of the type must be the name of a solid. isojam takes each "
+              "of these solids to have the volume 1 in the unit of length of the file.")
+      .optional();
+  field
+      .custom("digests", digests_field(start),
+              "Digests of the files. isojam writes this key into the copy of the manifest in a results directory.")
+      .optional();
 }
 
 void load_start(const JsonPlace& place, Manifest& manifest) {
@@ -140,6 +173,7 @@ void load_start(const JsonPlace& place, Manifest& manifest) {
   for (std::size_t k = 0; k < start.files.size(); ++k) {
     auto& file = start.files[k];
     if (file.packing) continue;
+    file.frame = start.frame;
     const auto here = packing.value().is_array() ? packing.at(k) : packing;
     load_file(here, file, manifest);
     check_density(here, start, *file.packing, manifest);
@@ -150,7 +184,7 @@ void load_start(const JsonPlace& place, Manifest& manifest) {
 void load_start(Manifest& manifest) {
   if (!manifest.start) return;
   Json document;
-  document["start"] = to_json(*manifest.start);
+  document["start"] = written(*manifest.start);
   load_start(JsonPlace(document, manifest.name).at("start"), manifest);
 }
 

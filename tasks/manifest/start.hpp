@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/solve/jam.hpp"
-#include "tasks/io/place.hpp"
+#include "tasks/io/describe.hpp"
 #include "tasks/packings/start_packing.hpp"
 
 namespace isojam {
@@ -14,17 +14,16 @@ struct Manifest;
 /// User-defined initial configurations, which replace the random ones. Replicate k starts from files[k].
 struct Start {
   std::vector<StartFile> files;
+  int frame = -1;  ///< index of the frame in each file, from 0; −1 is the last frame
   /// density to which each packing is strained before the protocol starts; nullopt: packings are not strained
-  std::optional<double> density;
+  std::optional<double> density{};
   JamStage stage = JamStage::consolidation;  ///< first stage of the protocol
   TypeNames types{};                         ///< solids of the particle types whose shapes are not in the files
 };
 
-/// Reads {"packing": FILE or [FILE, …], "frame": k, "density": φ, "stage": "consolidation" or "expansion", "types":
-/// {TYPE: SOLID, …}}. Paths are relative to the folder of the manifest. The canonical form of a manifest has an
-/// additional key "digests" with the digests of the files. This function does not read the files, see load_start().
-Start read_start(const JsonPlace& place);
-Json to_json(const Start& start);
+/// Paths are relative to the folder of the manifest. The canonical form of a manifest has an additional key "digests" with
+/// the digests of the files. The files are not read, see load_start().
+void describe(Fields& field, Start& start);
 
 /// Reads the files that have not been read yet. `place` is the location of /start in the manifest. Throws InputError in
 /// each of these cases:
@@ -32,7 +31,7 @@ Json to_json(const Start& start);
 /// - There are fewer files than replicates.
 /// - A file cannot be read, or does not contain a packing of the particles in the manifest.
 /// - A file has changed since its digest was computed.
-/// - The initial density is not below max_density, or is below half of consolidation_step.
+/// - The initial density is not below max_density, or is below half of compression_step.
 /// - The cell is not a cube, but /protocol/cell is not "free": a prescribed cell shape is always a cube.
 /// - The cell is so small that a particle could touch two images of another one.
 /// - An overlap is larger than half of the volume of the smaller particle.

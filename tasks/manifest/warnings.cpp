@@ -10,8 +10,6 @@
 
 #include "engine/analysis/orientation_order.hpp"
 #include "engine/arithmetic/elementary.hpp"
-#include "tasks/manifest/fields.hpp"
-#include "tasks/manifest/shear_settings.hpp"
 
 namespace isojam {
 namespace {
@@ -48,9 +46,8 @@ class Warnings {
   /// solid.
   void add(std::string_view name, const std::string& solid, const std::string& text) {
     if (!warned_.emplace(name, solid).second) return;
-    const bool swept = std::any_of(manifest_.swept.begin(), manifest_.swept.end(),
-                                   [&](const SweptField& field) { return field.name == name; });
-    const auto pointer = swept ? fmt::format("/sweep/{}", name) : pointer_of(*find_field(name));
+    const auto pointer =
+        manifest_.swept.contains(name) ? fmt::format("/sweep/{}", name) : find_parameter(name)->pointer;
     lines_.push_back(fmt::format("{}: {}", pointer, text));
   }
 
@@ -147,7 +144,7 @@ void look_at_solid(const JamOptions& options, const Known& solid, Warnings& warn
   const std::string name(to_string(solid.kind));
   look_at_density(options, solid, warnings);
   if (solid.kind == SolidKind::tetrahedron && options.compression.evaluations < relaxed_evaluations) {
-    warnings.add("consolidation_evaluations", name,
+    warnings.add("compression_evaluations", name,
                  fmt::format("{} evaluations are too few for tetrahedra, which then jam at lower densities; use at "
                              "least {}",
                              options.compression.evaluations, relaxed_evaluations));
@@ -189,7 +186,7 @@ bool requests(const Manifest& manifest, std::initializer_list<Measure> any) {
 /// Warns of keys whose values nothing uses.
 void look_at_effects(const Manifest& manifest, Warnings& warnings) {
   const MeasureOptions usual;
-  if (shear_json(manifest.measuring.shear) != shear_json(usual.shear) && !requests(manifest, {Measure::shear}))
+  if (written(manifest.measuring.shear) != written(usual.shear) && !requests(manifest, {Measure::shear}))
     warnings.add_at("/shear", "has no effect without the measure; add \"shear\" to /measure");
   if (manifest.measuring.modes != usual.modes &&
       !requests(manifest, {Measure::modes, Measure::backbone, Measure::prestress}))
@@ -223,9 +220,9 @@ void look_at_effects(const Manifest& manifest, Warnings& warnings) {
 void look_at_cohesion(const Manifest& manifest, const std::vector<OptionSet>& sets, Warnings& warnings) {
   const auto acts = [](const OptionSet& set) { return set.options.cohesion.acts(); };
   if (std::none_of(sets.begin(), sets.end(), acts)) {
-    for (const auto& field : all_fields()) {
-      if (is_nested(field) && field_value(field, sets.front().options) != field_value(field, {}))
-        warnings.add(field.name, "", "has no effect, because the strength of the cohesion is 0");
+    for (const auto& [name, pointer, field, absent] : all_parameters()) {
+      if (name.starts_with("cohesion.") && value_of(name, sets.front().options) != written(field))
+        warnings.add(name, "", "has no effect, because the strength of the cohesion is 0");
     }
   } else if (manifest.start && manifest.start->stage == JamStage::expansion) {
     const auto ends = [](const OptionSet& set) { return ends_at_zero_pressure(set.options); };
@@ -237,14 +234,13 @@ void look_at_cohesion(const Manifest& manifest, const std::vector<OptionSet>& se
 
 /// Warns of parameters that a later stage or another parameter makes ineffective.
 void look_at_unused(const Manifest& manifest, const JamOptions& options, Warnings& warnings) {
-  const JamOptions usual;
   if (!manifest.start) return;
-  for (const auto& field : all_fields()) {
-    const bool is_initial = field.name == "initial_density";
-    const bool of_compression = field.name.starts_with("consolidation") || field.name.starts_with("target_");
+  for (const auto& [name, pointer, field, absent] : all_parameters()) {
+    const bool is_initial = name == "initial_density";
+    const bool of_compression = name.starts_with("compression_") || name.starts_with("target_");
     if (!is_initial && !(of_compression && manifest.start->stage == JamStage::expansion)) continue;
-    if (field_value(field, options) == field_value(field, usual)) continue;
-    warnings.add(field.name, "",
+    if (value_of(name, options) == written(field)) continue;
+    warnings.add(name, "",
                  is_initial ? "has no effect, because /start gives the initial packings; set /start/density"
                             : "has no effect, because /start/stage is expansion: there is no compression");
   }

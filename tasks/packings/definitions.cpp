@@ -8,7 +8,7 @@
 
 #include "engine/geometry/hull.hpp"
 #include "engine/geometry/solids/named_solids.hpp"
-#include "tasks/io/options.hpp"
+#include "tasks/io/fields.hpp"
 #include "tasks/packings/content_error.hpp"
 #include "tasks/packings/intake.hpp"
 #include "tasks/packings/surface.hpp"
@@ -18,31 +18,70 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::array<std::string_view, 3> ways{"box", "file", "vertices"}, repair_keys{"merge", "hull", "corners"};
+constexpr std::array<std::string_view, 3> ways{"box", "file", "vertices"};
 constexpr std::array<std::string_view, 6> definition_keys{"box", "file", "vertices", "merge", "hull", "corners"};
 constexpr std::string_view allowed_definition =
     "{\"box\": [a, b, c]}, {\"file\": \"x.off\"} or {\"vertices\": [[x, y, z], ...]}";
 constexpr std::string_view allowed_file = "an OFF, STL or OBJ file of one convex polyhedron";
-constexpr Range edge_range{0, 1e9, true};
 
-std::vector<Vector3d> box_vertices(const JsonPlace& place) {
-  place.expect_length(3, "three edges");
-  Vector3d edges;
-  for (std::size_t c = 0; c < 3; ++c) edges[static_cast<Eigen::Index>(c)] = place.at(c).number(edge_range);
+std::vector<Vector3d> box_vertices(const std::array<double, 3>& edges) {
   std::vector<Vector3d> vertices;
   for (int k = 0; k < 8; ++k)
-    vertices.emplace_back(edges.cwiseProduct(Vector3d(k & 1 ? 0.5 : -0.5, k & 2 ? 0.5 : -0.5, k & 4 ? 0.5 : -0.5)));
+    vertices.emplace_back((k & 1 ? 0.5 : -0.5) * edges[0], (k & 2 ? 0.5 : -0.5) * edges[1],
+                          (k & 4 ? 0.5 : -0.5) * edges[2]);
   return vertices;
 }
 
-RepairOptions read_repairs(const JsonPlace& place) {
-  RepairOptions options;
-  place.read_if_any("merge", [&](const JsonPlace& merge) { options.merge = merge.number({0, largest_merge, true}); });
-  place.read_if_any("hull", [&](const JsonPlace& hull) { options.hull = hull.boolean(); });
-  place.read_if_any("corners", [&](const JsonPlace& corners) {
-    options.corners = static_cast<int>(corners.integer({4, ConvexSolid::max_vertices}));
-  });
-  return options;
+Json vertices_schema() {
+  const Json vertex{{"type", "array"},
+                    {"minItems", 3},
+                    {"maxItems", 3},
+                    {"items", {{"type", "number"}, {"minimum", -1e9}, {"maximum", 1e9}}}};
+  return {{"type", "array"}, {"minItems", 4}, {"maxItems", most_surface_points}, {"items", vertex}};
+}
+
+/// The keys of a definition.
+struct Definition {
+  std::array<double, 3> box{1, 1, 1};
+  std::string file;
+  RepairOptions repairs;
+};
+
+Fields fields_of(Definition& of, std::string_view way) {
+  Fields field;
+  if (way == "box") {
+    field("box", of.box, "Lengths of the three edges, in any unit of length.").range({0, 1e9, true}).finite();
+    return field;
+  }
+  if (way == "file")
+    field("file", of.file,
+          "File in the format OFF, STL (text or binary) or OBJ. Its path is relative to the manifest. The faces must "
+          "form the closed surface of one convex solid.");
+  if (way == "vertices") {
+    // read_corners() reads them.
+    field.custom("vertices", {{}, [](const JsonPlace&) {}, vertices_schema(), "list of vertices"},
+                 "Corners of the convex hull, with any unit of length and any origin. At most 192 edges and 128 faces "
+                 "may remain after the repairs that the keys `merge`, `hull` and `corners` request.");
+  }
+  field("merge", of.repairs.merge,
+        "Length within which points are welded and faces are joined, relative to the diameter of the solid. Points "
+        "that are at most this far apart are welded into one. Adjacent faces become one exactly planar face if all "
+        "their corners are within this distance of one plane. Points that are not corners are omitted if they are "
+        "within this distance of a face. A corner moves by at most five of these lengths. Without this key only "
+        "rounding errors (64 ulp) are removed.")
+      .range({0, largest_merge, true})
+      .optional()
+      .finite();
+  field("hull", of.repairs.hull,
+        "If true, the solid is the convex hull of the vertices. Points that are not corners of the hull are omitted. "
+        "The faces of a file need not form a closed surface, but vertices that belong to no face are omitted first.")
+      .optional();
+  field("corners", of.repairs.corners,
+        "Number of corners to which the solid is reduced. isojam removes the corners that change the volume least, "
+        "and `isojam validate` prints the change of the volume. Without this key all corners are kept.")
+      .range({4, ConvexSolid::max_vertices})
+      .optional();
+  return field;
 }
 
 /// The change of a definition that removes an error.
@@ -91,20 +130,21 @@ Solid placeholder(const std::string& name) { return Solid::made_of(name, Solid(S
 SolidDefinition read_definition(const JsonPlace& place, const std::string& name) {
   place.expect_object(allowed_definition);
   place.expect_keys(definition_keys);
-  const auto given = std::count_if(ways.begin(), ways.end(), [&](auto way) { return place.has(std::string(way)); });
-  const auto options = read_repairs(place);
-  const auto repairs =
-      std::count_if(repair_keys.begin(), repair_keys.end(), [&](auto key) { return place.has(std::string(key)); });
-  if (given == 0 && static_cast<std::size_t>(repairs) < place.value().size())
-    return {placeholder(name)};  // its key was refused
-  if (given != 1) place.refuse("the solid needs exactly one definition", std::string(allowed_definition));
-  if (place.has("file")) return read_solid_file(place.at("file"), name, options);
-  if (place.has("vertices")) return read_corners(place.at("vertices"), name, options);
-  for (const auto key : repair_keys) {
-    if (place.has(std::string(key)))
-      place.at(std::string(key)).refuse_with_remedy("a box needs no repair", "remove the key");
+  if (!place.is_sound()) return {placeholder(name)};
+  const auto is_given = [&](std::string_view key) { return place.has(std::string(key)); };
+  if (std::count_if(ways.begin(), ways.end(), is_given) != 1)
+    place.refuse("the solid needs exactly one definition", std::string(allowed_definition));
+  const auto way = *std::find_if(ways.begin(), ways.end(), is_given);
+  for (const std::string key : {"merge", "hull", "corners"}) {
+    if (way == "box" && place.has(key)) place.at(key).refuse_with_remedy("a box needs no repair", "remove the key");
   }
-  return {solid_from(place.at("box"), name, box_vertices(place.at("box")))};
+  Definition definition;
+  read_into(place, fields_of(definition, way));
+  if (!place.is_sound()) return {placeholder(name)};
+  const auto inner = place.at(std::string(way));
+  if (way == "file") return read_solid_file(inner, name, definition.repairs);
+  if (way == "vertices") return read_corners(inner, name, definition.repairs);
+  return {solid_from(inner, name, box_vertices(definition.box))};
 }
 
 }  // namespace
@@ -131,6 +171,27 @@ SolidDefinitions read_definitions(const JsonPlace& place) {
     if (!good) definitions.emplace(name, SolidDefinition{placeholder(name)});
   }
   return definitions;
+}
+
+Json definitions_schema() {
+  Definition definition;
+  Json json{{"type", "object"}, {"propertyNames", {{"pattern", solid_name_pattern}}}};
+  for (const auto way : ways)
+    json["additionalProperties"]["oneOf"].push_back(object_schema(fields_of(definition, way)));
+  return json;
+}
+
+Json solid_schema() {
+  const Json solid{
+      {"description",
+       "Convex solid, scaled to unit volume. It is a named solid, a prism or antiprism whose edges all have the same "
+       "length (for example `prism6` or `antiprism5`), or a name that the key `solids` defines."},
+      {"anyOf",
+       {{{"enum", named_solids()}},
+        {{"type", "string"},
+         {"pattern",
+          "^(prism([3-9]|[1-5][0-9]|6[0-4])|antiprism([4-9]|[1-3][0-9]|4[0-8])|[A-Za-z][A-Za-z0-9_]{0,47})$"}}}}};
+  return {{"$ref", "#/definitions/solid"}, {"definitions", {{"solid", solid}}}};
 }
 
 Solid read_solid_name(const JsonPlace& place, const SolidDefinitions& definitions) {

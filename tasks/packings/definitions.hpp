@@ -11,6 +11,7 @@
 namespace isojam {
 
 inline constexpr std::size_t longest_solid_name = 48;  ///< largest number of characters in the name of a solid
+inline constexpr std::string_view solid_name_pattern = "^[A-Za-z][A-Za-z0-9_]{0,47}$";
 
 /// A solid that a document defines.
 struct SolidDefinition {
@@ -27,6 +28,9 @@ using SolidDefinitions = std::map<std::string, SolidDefinition, std::less<>>;
 /// length is allowed, because every solid is scaled to unit volume. Throws InputError if a name is invalid or is that
 /// of a built-in solid, or if a solid is not convex.
 SolidDefinitions read_definitions(const JsonPlace& place);
+/// The schemas of what read_definitions() and read_solid_name() accept.
+Json definitions_schema();
+Json solid_schema();
 
 /// Reads the name of a solid at `place` and returns the solid. It is a built-in solid, or a solid that the document
 /// defines.

@@ -6,14 +6,24 @@
 #include <cmath>
 #include <string>
 
+#include "tasks/io/fields.hpp"
 #include "tasks/io/hash.hpp"
 
 namespace isojam {
-namespace {
-
-using ReadSolid = std::function<Solid(const JsonPlace&)>;
 
 constexpr Range size_range{0, 1000, true}, fraction_range{0, 1, true}, sigma_range{0, 3, true};
+
+static void describe(Fields& field, SizeShare& share) {
+  field("size", share.size, "Size of these particles, as a length.").range(size_range).finite();
+  field("fraction", share.fraction,
+        "Number of particles of this size, divided by the number of particles of this kind.")
+      .range(fraction_range)
+      .finite();
+}
+
+namespace {
+
+constexpr std::array distributions{SizeLaw::discrete, SizeLaw::uniform, SizeLaw::log_normal};
 constexpr std::string_view allowed_sizes =
     "a number in (0, 1000], {\"discrete\": [{\"size\": s, \"fraction\": f}, ...]}, {\"uniform\": [from, to]} or "
     "{\"log_normal\": {\"median\": s, \"sigma\": standard deviation of ln volume}}";
@@ -29,81 +39,125 @@ void expect_whole(const JsonPlace& place, const List& list, const Fraction& frac
     place.refuse(fmt::format("the fractions sum to {}", sum), "a sum of 1");
 }
 
-std::size_t expect_some(const JsonPlace& place, std::string_view of_what) {
-  const auto allowed = fmt::format("a list of 1 to {} {}", most_kinds, of_what);
-  return place.expect_entries(most_kinds, allowed);
-}
-
-Sizes read_discrete(const JsonPlace& place) {
-  Sizes sizes{.law = SizeLaw::discrete};
-  const auto count = expect_some(place, "sizes, each {\"size\": s, \"fraction\": f}");
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto entry = place.at(k);
-    entry.expect_keys(std::array<std::string_view, 2>{"size", "fraction"});
-    sizes.list.push_back({entry.at("size").number(size_range), entry.at("fraction").number(fraction_range)});
+/// The key of a distribution of sizes. A fixed size has none.
+Fields fields_of(Sizes& sizes, SizeLaw law) {
+  Fields field;
+  if (law == SizeLaw::discrete)
+    field("discrete", sizes.list,
+          "Discrete distribution: several sizes with their fractions. The sum of the fractions is 1.")
+        .length(1, most_kinds);
+  if (law == SizeLaw::uniform) {
+    const auto end = [&sizes](std::size_t k) -> MemberRef { return k == 0 ? &sizes.from : &sizes.to; };
+    field
+        .member("uniform", Many{[] { return 2; }, [](std::size_t) {}, end, [end] { return end(0); }, 2, 2},
+                "Uniform distribution of the size: the smallest and the largest size.")
+        .range(size_range)
+        .finite();
   }
-  expect_whole(place, sizes.list, [](const SizeShare& each) { return each.fraction; });
-  return sizes;
-}
-
-Sizes read_uniform(const JsonPlace& place) {
-  constexpr std::string_view allowed = "two sizes in ascending order";
-  place.expect_length(2, allowed);
-  Sizes sizes{.law = SizeLaw::uniform, .from = place.at(0).number(size_range), .to = place.at(1).number(size_range)};
-  if (!(sizes.from < sizes.to)) place.refuse("the sizes do not ascend", std::string(allowed));
-  return sizes;
-}
-
-Sizes read_log_normal(const JsonPlace& place) {
-  place.expect_keys(std::array<std::string_view, 2>{"median", "sigma"});
-  return {.law = SizeLaw::log_normal,
-          .from = place.has("median") ? place.at("median").number(size_range) : 1,
-          .sigma = place.at("sigma").number(sigma_range)};
+  if (law == SizeLaw::log_normal) {
+    const auto parameters = [&sizes](Fields& of) {
+      of("median", sizes.from, "Median of the size. The median of V is the volume of a particle of this size.")
+          .range(size_range)
+          .optional()
+          .finite();
+      of("sigma", sizes.sigma, "Standard deviation of ln V.").range(sigma_range).finite();
+    };
+    field.nested("log_normal", parameters, "Log-normal distribution of the particle volume V.");
+  }
+  return field;
 }
 
 Sizes read_sizes(const JsonPlace& place) {
   if (!place.value().is_object()) return {.from = place.number(size_range)};
-  place.expect_keys(std::array<std::string_view, 3>{"discrete", "uniform", "log_normal"});
+  std::array<std::string_view, distributions.size()> names;
+  std::transform(distributions.begin(), distributions.end(), names.begin(), [](auto law) { return to_string(law); });
+  place.expect_keys(names);
   if (place.value().size() != 1) place.refuse("the sizes need exactly one distribution", std::string(allowed_sizes));
-  if (place.has("discrete")) return read_discrete(place.at("discrete"));
-  if (place.has("uniform")) return read_uniform(place.at("uniform"));
-  return read_log_normal(place.at("log_normal"));
+  const auto key = place.value().begin().key();
+  Sizes sizes;
+  sizes.law = from_string<SizeLaw>(key).value_or(SizeLaw::fixed);
+  read_into(place, fields_of(sizes, sizes.law));
+  if (!place.is_sound()) return {};
+  if (sizes.law == SizeLaw::discrete)
+    expect_whole(place.at(key), sizes.list, [](const SizeShare& each) { return each.fraction; });
+  if (sizes.law == SizeLaw::uniform && !(sizes.from < sizes.to))
+    place.at(key).refuse("the sizes do not ascend", "two sizes in ascending order");
+  return sizes;
 }
 
 Json to_json(const Sizes& sizes) {
-  Json json;
-  switch (sizes.law) {
-    case SizeLaw::fixed: return sizes.from;
-    case SizeLaw::uniform: json["uniform"] = {sizes.from, sizes.to}; break;
-    case SizeLaw::log_normal:
-      json["log_normal"]["median"] = sizes.from;
-      json["log_normal"]["sigma"] = sizes.sigma;
-      break;
-    case SizeLaw::discrete:
-      for (const auto& each : sizes.list) {
-        Json entry;
-        entry["size"] = each.size;
-        entry["fraction"] = each.fraction;
-        json["discrete"].push_back(std::move(entry));
-      }
-      break;
-  }
-  return json;
+  if (sizes.law == SizeLaw::fixed) return sizes.from;
+  auto copy = sizes;
+  return written(fields_of(copy, sizes.law));
 }
 
-std::vector<MixtureKind> read_kinds(const JsonPlace& place, const ReadSolid& read) {
-  const auto count = expect_some(place, "kinds, each {\"solid\": ..., \"fraction\": f, \"size\": s}");
-  std::vector<MixtureKind> kinds;
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto entry = place.at(k);
-    entry.expect_object("{\"solid\": ..., \"fraction\": f, \"size\": s}");
-    entry.expect_keys(std::array<std::string_view, 4>{"solid", "fraction", "size", "vertices"});
-    kinds.push_back({read(entry), entry.at("fraction").number(fraction_range),
-                     entry.has("size") ? read_sizes(entry.at("size")) : Sizes{}});
-  }
-  expect_whole(place, kinds, [](const MixtureKind& kind) { return kind.fraction; });
-  return kinds;
+Json sizes_schema() {
+  Sizes sizes;
+  Json json{{"description",
+             "Size of the particles of this kind, as a length relative to the solid at unit volume. If it is a "
+             "distribution of sizes, the sizes of the particles are quantiles of this distribution. isojam scales all "
+             "sizes so that the mean particle volume is 1."},
+            {"oneOf", {{{"type", "number"}, {"exclusiveMinimum", size_range.low}, {"maximum", size_range.high}}}}};
+  for (const auto law : distributions) json["oneOf"].push_back(object_schema(fields_of(sizes, law)));
+  return {{"$ref", "#/definitions/sizes"}, {"definitions", {{"sizes", std::move(json)}}}};
 }
+
+void describe_kind(Fields& field, MixtureKind& kind, Custom solid) {
+  field.custom("solid", std::move(solid), "");
+  field("fraction", kind.fraction,
+        "Number of particles of this kind, divided by the number of all particles. The sum over all kinds is 1.")
+      .range(fraction_range)
+      .finite();
+  field
+      .custom("size",
+              {[&kind] { return to_json(kind.sizes); }, [&kind](const JsonPlace& at) { kind.sizes = read_sizes(at); },
+               sizes_schema(), "number or a distribution of sizes"},
+              "")
+      .optional();
+}
+
+/// A mixture in a manifest.
+struct MixtureEntry {
+  std::string name;
+  std::vector<MixtureKind> kinds;
+};
+
+Fields fields_of(MixtureEntry& entry, const SolidDefinitions& definitions) {
+  Fields field;
+  field
+      .custom("name",
+              {[&entry] { return entry.name.empty() ? Json() : Json(entry.name); },
+               [&](const JsonPlace& place) {
+                 entry.name = place.text();
+                 check_solid_name(place, entry.name);
+                 if (definitions.contains(entry.name))
+                   place.refuse_with_remedy("a solid has this name", "choose another name");
+               },
+               {{"type", "string"}, {"pattern", solid_name_pattern}},
+               "text"},
+              "Name of the mixture. Without this key, isojam makes a name from the kinds.")
+      .optional();
+  const auto kind_of = [&definitions](MixtureKind& kind) {
+    return Nested{[&](Fields& of) {
+      describe_kind(of, kind,
+                    {[&kind] { return Json(to_string(kind.solid)); },
+                     [&](const JsonPlace& place) { kind.solid = read_solid_name(place, definitions); }, solid_schema(),
+                     "name of a solid"});
+    }};
+  };
+  field.member("mixture",
+               Many{[&entry] { return entry.kinds.size(); }, [&entry](std::size_t n) { entry.kinds.resize(n); },
+                    [&entry, kind_of](std::size_t k) { return kind_of(entry.kinds[k]); },
+                    [kind_of] {
+                      static MixtureKind example;
+                      return kind_of(example);
+                    },
+                    1, most_kinds},
+               "Kinds of particles in the mixture.");
+  return field;
+}
+
+double fraction_of(const MixtureKind& kind) { return kind.fraction; }
 
 /// A name that is too long for file names is replaced by its hash.
 Mixture named(std::vector<MixtureKind> kinds, std::string name) {
@@ -112,54 +166,60 @@ Mixture named(std::vector<MixtureKind> kinds, std::string name) {
   return {mixture.kinds(), fmt::format("mixture_{}", hex_hash(mixture.name()))};
 }
 
-template <class PutSolid>
-Json kinds_json(const Mixture& mixture, const PutSolid& put) {
-  Json list;
-  for (const auto& kind : mixture.kinds()) {
-    Json entry;
-    put(entry, kind.solid);
-    entry["fraction"] = kind.fraction;
-    entry["size"] = to_json(kind.sizes);
-    list.push_back(std::move(entry));
-  }
-  return list;
-}
-
 }  // namespace
 
 Mixture read_sweep_entry(const JsonPlace& place, const SolidDefinitions& definitions) {
   if (!place.value().is_object()) return read_solid_name(place, definitions);
-  place.expect_keys(std::array<std::string_view, 2>{"mixture", "name"});
-  const auto kinds = read_kinds(place.at("mixture"), [&](const JsonPlace& entry) {
-    if (entry.has("vertices"))
-      entry.at("vertices").refuse_with_remedy("vertices are not accepted here", "define the solid in /solids");
-    return read_solid_name(entry.at("solid"), definitions);
-  });
-  if (!place.has("name")) return named(kinds, "");
-  const auto name = place.at("name").text();
-  check_solid_name(place.at("name"), name);
-  if (definitions.contains(name)) place.at("name").refuse_with_remedy("a solid has this name", "choose another name");
-  return {kinds, name};
+  MixtureEntry entry;
+  read_into(place, fields_of(entry, definitions));
+  if (!place.is_sound()) return SolidKind::tetrahedron;
+  expect_whole(place.at("mixture"), entry.kinds, fraction_of);
+  return entry.name.empty() ? named(std::move(entry.kinds), "") : Mixture(std::move(entry.kinds), entry.name);
 }
 
 Json sweep_entry(const Mixture& mixture) {
   if (mixture.is_one_solid()) return to_string(mixture.solid());
-  Json json;
+  MixtureEntry entry{mixture.name(), mixture.kinds()};
   // A name derived from the mixture need not be stored.
-  if (named(mixture.kinds(), "").name() != mixture.name()) json["name"] = mixture.name();
-  json["mixture"] = kinds_json(mixture, [](Json& entry, const Solid& solid) { entry["solid"] = to_string(solid); });
-  return json;
+  if (named(mixture.kinds(), "").name() == mixture.name()) entry.name.clear();
+  return written(fields_of(entry, {}));
+}
+
+Json sweep_entry_schema() {
+  MixtureEntry entry;
+  Json mixture{{"description",
+                "Several kinds of particles in one packing. Fractions are by number of particles, and their sum is 1. "
+                "The number of particles of each kind is exact except for rounding. Sizes are relative lengths; isojam "
+                "scales them so that the mean volume of all particles is 1."}};
+  mixture.update(object_schema(fields_of(entry, {})));
+  return {{"anyOf",
+           {solid_schema(), {{"$ref", "#/definitions/mixture"}, {"definitions", {{"mixture", std::move(mixture)}}}}}}};
 }
 
 void put_mixture(Json& json, const Mixture& mixture) {
   if (mixture.is_one_solid()) return put_solid(json, mixture.solid());
   json["solid"] = to_string(mixture);
-  json["mixture"] = kinds_json(mixture, put_solid);
+  for (const auto& kind : mixture.kinds()) {
+    Json& entry = json["mixture"].emplace_back();
+    put_solid(entry, kind.solid);
+    entry["fraction"] = kind.fraction;
+    entry["size"] = to_json(kind.sizes);
+  }
 }
 
 Mixture read_mixture(const JsonPlace& place) {
   if (!place.has("mixture")) return read_solid(place);
-  return {read_kinds(place.at("mixture"), read_solid), place.at("solid").text()};
+  const auto list = place.at("mixture");
+  std::vector<MixtureKind> kinds(list.expect_entries(most_kinds, fmt::format("a list of 1 to {} kinds", most_kinds)));
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const auto entry = list.at(k);
+    Fields field;
+    describe_kind(field, kinds[k], {{}, [&](const JsonPlace&) { kinds[k].solid = read_solid(entry); }, {}, ""});
+    field.custom("vertices", {{}, [](const JsonPlace&) {}, {}, ""}, "").optional();  // read_solid() reads them
+    read_into(entry, field);
+  }
+  expect_whole(list, kinds, fraction_of);
+  return {std::move(kinds), place.at("solid").text()};
 }
 
 }  // namespace isojam

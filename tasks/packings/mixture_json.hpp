@@ -11,6 +11,8 @@ namespace isojam {
 Mixture read_sweep_entry(const JsonPlace& place, const SolidDefinitions& definitions);
 /// Converts a mixture to an entry of sweep.solid. The entry has a name only if the user chose it.
 Json sweep_entry(const Mixture& mixture);
+/// The schema of an entry of sweep.solid.
+Json sweep_entry_schema();
 
 /// Writes a mixture. If all particles have the same solid and size, it writes what put_solid() writes. Otherwise it
 /// writes two keys: "solid", the name of the mixture, and "mixture", a list of its kinds. Each kind contains what

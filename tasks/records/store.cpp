@@ -63,7 +63,7 @@ std::string how_to_add(const fs::path& directory, const Manifest& theirs, const 
 bool has_settings_of(const Manifest& whole, const Manifest& part) {
   const auto own = [](const Manifest& manifest, const Mixture& solid) {
     const auto found = manifest.by_solid.find(to_string(solid));
-    return found == manifest.by_solid.end() ? Json() : found->second;
+    return found == manifest.by_solid.end() ? Json() : found->second.parameters;
   };
   return std::all_of(part.solids.begin(), part.solids.end(),
                      [&](const Mixture& solid) { return own(whole, solid) == own(part, solid); });

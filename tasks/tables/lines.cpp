@@ -5,7 +5,6 @@
 #include <set>
 
 #include "tasks/manifest/base.hpp"
-#include "tasks/manifest/fields.hpp"
 
 namespace isojam {
 
@@ -26,10 +25,7 @@ std::vector<std::string> parameter_names(const Table& table) {
   return {names.begin(), names.end()};
 }
 
-std::string parameter_head(const std::string& name) {
-  if (name != residual_column) return name;
-  return fmt::format("{}.{}", to_string(find_field(name)->group), name);
-}
+std::string parameter_head(const std::string& name) { return name == residual_column ? "minimiser." + name : name; }
 
 std::string parameter_text(const Row& row, const std::string& name) {
   if (!row.parameters.contains(name)) return "";

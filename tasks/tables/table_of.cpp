@@ -65,13 +65,13 @@ Json common_base(const std::vector<std::string>& directories, const std::vector<
 }
 
 /// The parameters of the rows, each with all values that occur.
-std::vector<SweptField> swept_in(const Table& table) {
+SweptValues swept_in(const Table& table) {
   std::map<std::string, std::set<Json>> values;
   for (const auto& row : table.rows) {
     for (const auto& item : row.parameters.items()) values[item.key()].insert(item.value());
   }
-  std::vector<SweptField> swept;
-  for (const auto& [name, list] : values) swept.push_back({name, {list.begin(), list.end()}});
+  SweptValues swept;
+  for (const auto& [name, list] : values) swept[name].assign(list.begin(), list.end());
   return swept;
 }
 

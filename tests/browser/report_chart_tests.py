@@ -123,7 +123,7 @@ class ChartTests:
         self.open(self.pages.report(self.swept()))
         names = self.browser.run("""
             return [...document.querySelectorAll('#table th[scope=col]')].map((cell) => cell.textContent)""")
-        self.assertIn("consolidation_step", names)
+        self.assertIn("compression_step", names)
         for press in (lambda control: control.click(), lambda control: control.send_keys(Keys.ENTER)):
             for place, name in enumerate(names):
                 if name == "solid":
@@ -148,7 +148,7 @@ class ChartTests:
                     return [...document.querySelectorAll(`#chart-${arguments[0]} ${arguments[1]}`)].map((text) =>
                       (text.children.length > 0 ? [...text.children] : [text]).map((part) => part.textContent)
                         .join(' ').replace(/\\s+/g, ' '))""", chart, marks)
-                for label in ("N = 24, consolidation_step 0.05", "N = 28, consolidation_step 0.07"):
+                for label in ("N = 24, compression_step 0.05", "N = 28, compression_step 0.07"):
                     shown = [text for text in texts if label in text]
                     self.assertEqual(len(shown), 1, f"{chart} at {width}: {label} in {texts}")
 
@@ -157,7 +157,7 @@ class ChartTests:
         directory = self.root / "swept"
         if directory.exists():
             return directory
-        sweep = {"solid": ["dodecahedron"], "particles": [24, 28], "consolidation_step": [0.05, 0.07]}
+        sweep = {"solid": ["dodecahedron"], "particles": [24, 28], "compression_step": [0.05, 0.07]}
         protocol = {key: value for key, value in report_pages.manifest()["protocol"].items() if key not in sweep}
         return self.pages.run("swept", sweep=sweep, protocol=protocol, measure=["contacts"])
 

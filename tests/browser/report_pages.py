@@ -18,7 +18,7 @@ def manifest(**changes):
     """A manifest of packings that take about one second each: 24 or 28 dodecahedra, minimised to large residuals."""
     tiny = {
         "name": "tiny", "seed": 11, "sweep": {"solid": ["dodecahedron"], "particles": [24, 28]}, "replicates": 2,
-        "protocol": {"initial_density": 0.3, "consolidation_step": 0.07, "target_energy": 3e-7, "longest_step": 0.03,
+        "protocol": {"initial_density": 0.3, "compression_step": 0.07, "target_energy": 3e-7, "longest_step": 0.03,
                      "step_fraction": 0.4, "final_distance": 0.03, "fit_window": 0.1},
         "minimiser": {"residual": 1e-3, "max_evaluations": 2000},
         "measure": MEASURES, "shear": {"step": 0.002, "until": 0.006},

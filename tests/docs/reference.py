@@ -1,4 +1,4 @@
-"""Makes the tables of docs/manifest.md and docs/fields.md from the schemas: reference.py SOURCE FACTS [--write]
+"""Makes the tables of docs/fields.md from the schemas: reference.py SOURCE FACTS [--write]
 
 SOURCE is the source tree. FACTS is the file facts.json, which the build writes next to the Python module. The tables of
 NAME are between `<!-- block NAME -->` and `<!-- end -->`. With --write, the pages are updated. Without it, the pages
@@ -10,38 +10,12 @@ import pathlib
 import re
 import sys
 
-from schema import Schema, cell, code, elements, fields_of, kinds
-
-# Keys of the manifest that have tables of their own.
-KEY_HEAD = ("key", "value", "default", "meaning")
-OBJECTS = ("sweep", "protocol", "minimiser", "replicates", "start", "shear", "solids", "size")
+from schema import Schema, cell, fields_of, kinds
 
 
 def table(head, rows):
     lines = [head, ["---"] * len(head), *rows]
     return ["| " + " | ".join(line) + " |" for line in lines]
-
-
-# ---- The manifest --------------------------------------------------------------------------------------------------
-def default_of(schema, field, required):
-    if required:
-        return "required"
-    return code(schema.resolved(field)["default"]) if "default" in schema.resolved(field) else ""
-
-
-def manifest_rows(schema, fields, required):
-    rows = []
-    for name, field in fields.items():
-        inner = schema.resolved(field)
-        what = kinds(schema, field)
-        if name in OBJECTS and name != "size" or name == "size" and "oneOf" in inner:
-            what = f"{what.split(' or object')[0]} or object" if name in ("replicates", "size") else "object"
-            what += f", [below](#{anchor('Key', name)})"
-        elif fields_of(inner) or name == "base":
-            what = "object"
-        rows.append([f"`{name}`", cell(what), cell(default_of(schema, field, name in required)),
-                     cell(inner.get("description", ""))])
-    return rows
 
 
 def heading(kind, path):
@@ -50,46 +24,6 @@ def heading(kind, path):
 
 def anchor(kind, path):
     return re.sub(r"[^\w -]", "", f"{kind}: {path}").lower().replace(" ", "-")
-
-
-def own_tables(schema, parts):
-    """Tables of an object, and of the objects inside it. If an object has several forms, each key occurs once."""
-    rows, paths = {}, {}
-    for path, fields, required in parts:
-        paths.setdefault(path, []).append(fields)
-        for row in manifest_rows(schema, fields, required):
-            rows.setdefault(path, {}).setdefault(row[0], row)
-    lines = []
-    for path, forms in paths.items():
-        for row in rows[path].values():
-            row[2] = "one of these keys is required" if len(forms) > 1 and row[2] == "required" else row[2]
-        lines += [heading("Key", path), "", *table(KEY_HEAD, list(rows[path].values())), ""]
-    return lines
-
-
-def manifest_block(schema):
-    top = schema.tree["properties"]
-    lines = table(KEY_HEAD,
-                  manifest_rows(schema, top, set(schema.tree["required"]))) + [""]
-    sweep = top["sweep"]
-    own = {name: field for name, field in sweep["properties"].items() if name in sweep["required"]}
-    rows = []
-    for name, field in own.items():
-        item = schema.resolved(schema.resolved(field["items"]).get("anyOf", [field["items"]])[0])
-        what = "names, or [mixtures](#key-mixture)" if name == "solid" else elements(schema, {"items": item})
-        rows.append([f"`{name}`", f"list of {what}", "required", cell(item["description"])])
-    lines += [heading("Key", "sweep"), "", *table(KEY_HEAD, rows), "",
-              "You can also sweep these keys: " + ", ".join(f"`{name}`" for name in sweep["properties"] if name not in own) +
-              ". Give a list of values for each key. The tables of `protocol` and `minimiser` below explain these keys.", ""]
-    for name in OBJECTS[1:6]:
-        lines += own_tables(schema, list(schema.objects(top[name], name)))
-    own = schema.resolved(top["solids"]["additionalProperties"])
-    lines += own_tables(schema, [part for form in own["oneOf"] for part in schema.objects(form, "solids")])
-    mixture = schema.tree["definitions"]["mixture"]
-    inside = [part for part in schema.objects(mixture, "mixture") if ".size" not in part[0]]
-    lines += own_tables(schema, inside)
-    sizes = schema.tree["definitions"]["sizes"]
-    return lines + own_tables(schema, [part for form in sizes["oneOf"] for part in schema.objects(form, "size")])
 
 
 # ---- Results -------------------------------------------------------------------------------------------------------
@@ -189,12 +123,11 @@ def tables_block(schema):
 
 def blocks(source, facts):
     quantities = json.loads(pathlib.Path(facts).read_text(encoding="utf-8"))["quantities"]
-    names = ("manifest", "replicate", "packing", "tables")
-    manifest, record, packing, tables = (Schema(source, name) for name in names)
+    names = ("replicate", "packing", "tables")
+    record, packing, tables = (Schema(source, name) for name in names)
     definitions = [(name, node) for name, node in record.tree["definitions"].items() if fields_of(node)]
     files = packing.tree["definitions"]
     made = {
-        "manifest": manifest_block(manifest),
         "quantities": quantity_block(record, tables, quantities),
         "tables": tables_block(tables),
         "records": objects_block(record, "Record", [("", record.tree), *definitions], record_units(record, quantities)),
@@ -204,7 +137,7 @@ def blocks(source, facts):
     return {name: "\n".join(lines).strip() for name, lines in made.items()}
 
 
-PAGES = ("docs/manifest.md", "docs/fields.md")
+PAGES = ("docs/fields.md",)
 
 
 def rewritten(text, made, used):

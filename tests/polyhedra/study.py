@@ -11,8 +11,8 @@ import numpy
 from polyhedron import faces, volume
 
 #: Few and coarse strain steps: the forces must balance in every equilibrium, however far from jamming.
-QUICK = {"initial_density": 0.3, "consolidation_step": 0.07, "longest_step": 0.03, "step_fraction": 0.4,
-         "max_density": 0.93, "final_distance": 0.03, "fit_window": 0.1, "consolidation_evaluations": 50}
+QUICK = {"initial_density": 0.3, "compression_step": 0.07, "longest_step": 0.03, "step_fraction": 0.4,
+         "max_density": 0.93, "final_distance": 0.03, "fit_window": 0.1, "compression_evaluations": 50}
 
 
 def manifest(name, solids, particles, residual=1e-6, measure=("contacts",)):

@@ -24,7 +24,7 @@ MANIFEST = {
     "name": "octahedra", "seed": 3,
     "sweep": {"solid": ["octahedron"], "particles": [48]},
     "replicates": 2,
-    "protocol": {"initial_density": 0.3, "consolidation_step": 0.07, "target_energy": 3e-7, "longest_step": 0.03,
+    "protocol": {"initial_density": 0.3, "compression_step": 0.07, "target_energy": 3e-7, "longest_step": 0.03,
                  "step_fraction": 0.4, "final_distance": 0.03, "fit_window": 0.1},
     "minimiser": {"residual": 1e-3, "max_evaluations": 2000},
     "measure": ["contacts"],

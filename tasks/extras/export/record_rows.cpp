@@ -45,7 +45,7 @@ std::string joined_texts(const Json& list) {
 std::vector<std::string> swept_names(const std::optional<Manifest>& manifest, const RecordedReplicate& first) {
   std::vector<std::string> names;
   if (manifest) {
-    for (const auto& field : manifest->swept) names.push_back(field.name);
+    for (const auto& [name, values] : manifest->swept) names.push_back(name);
   } else {
     for (const auto& item : first.summary.parameters.items()) names.push_back(item.key());
   }

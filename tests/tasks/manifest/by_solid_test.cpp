@@ -69,7 +69,7 @@ TEST(BySolid, TetrahedraAreRelaxedWithMoreEvaluations) {
     return Plan(manifest).at(point, 0).options.compression.evaluations;
   };
   const Json both{"tetrahedron", "octahedron"};
-  const std::string key = "consolidation_evaluations";
+  const std::string key = "compression_evaluations";
   const auto manifest = parsed(manifest_of(both, Json::object()));
   EXPECT_EQ(evaluations(manifest, 0), 2000);
   EXPECT_EQ(evaluations(manifest, 1), JamOptions{}.compression.evaluations);

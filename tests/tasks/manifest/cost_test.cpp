@@ -54,8 +54,8 @@ TEST(Cost, GrowsWithEverythingThatTakesTime) {
   const double usual = seconds_of(Json::object());
   for (const Json& more :
        {Json{{"sweep", {{"particles", {200}}}}}, Json{{"protocol", {{"final_distance", 0.001}}}},
-        Json{{"protocol", {{"consolidation_step", 0.01}}}}, Json{{"protocol", {{"step_fraction", 0.1}}}},
-        Json{{"protocol", {{"consolidation_evaluations", 4000}}}}, Json{{"protocol", {{"cell", "free"}}}},
+        Json{{"protocol", {{"compression_step", 0.01}}}}, Json{{"protocol", {{"step_fraction", 0.1}}}},
+        Json{{"protocol", {{"compression_evaluations", 4000}}}}, Json{{"protocol", {{"cell", "free"}}}},
         Json{{"protocol", {{"cycles", 1}}}}, Json{{"protocol", {{"cohesion", {{"strength", 1e-5}}}}}},
         Json{{"measure", {"contacts", "order", "clusters", "backbone"}}},
         Json{{"measure", {"contacts", "order", "clusters", "shear"}}}}) {

@@ -6,7 +6,6 @@
 #include <set>
 #include <tuple>
 
-#include "tasks/manifest/fields.hpp"
 #include "tasks/records/replicate.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
 #include "tests/tasks/support/support.hpp"
@@ -64,7 +63,7 @@ TEST(Plan, NamesAreFileNamesAndLeadBack) {
   manifest["sweep"]["residual"] = {1e-6, 1.2345678901234567e-9, 1};
   manifest["sweep"]["target_before_relaxation"] = {false, true};
   for (const bool longer : {false, true}) {
-    if (longer) manifest["sweep"]["consolidation_evaluations"] = {100, 123456789};
+    if (longer) manifest["sweep"]["compression_evaluations"] = {100, 123456789};
     const Plan plan(parse_manifest(manifest.dump(), "m"));
     std::set<std::string> names;
     std::size_t hashed = 0;
@@ -129,9 +128,9 @@ TEST(Plan, StreamsDifferOnlyByOriginAndPurpose) {
 
 Packing start_of(const ReplicateSpec& spec) { return engine_stages().begin(spec).progress.packing; }
 
-/// A value of the field other than its default.
-Json another_value(const Field& field) {
-  const auto usual = field_value(field, {});
+/// A value other than the default.
+Json another_value(const Parameter& parameter) {
+  const auto usual = written(parameter.field);
   if (usual.is_boolean()) return !usual.get<bool>();
   if (usual == "density") return "pressure";
   if (usual == "isotropic") return "free";
@@ -144,11 +143,11 @@ Json another_value(const Field& field) {
 TEST(Plan, ReplicatesOfOneNumberHaveTheSameInitialConfiguration) {
   const auto alone = plan_of(test::good_manifest());
   // Two values of each parameter, one parameter at a time. The product of all would have half a million replicates.
-  for (const auto& field : all_fields()) {
-    const std::string name(field.name);
+  for (const auto& parameter : all_parameters()) {
+    const auto& name = parameter.name;
     const bool strained = name == "initial_density";
     auto manifest = test::good_manifest();
-    manifest["sweep"][name] = Json{field_value(field, {}), another_value(field)};
+    manifest["sweep"][name] = Json{written(parameter.field), another_value(parameter)};
     const auto plan = plan_of(manifest);
     ASSERT_EQ(plan.size(), 4U) << name;
     for (const auto& spec : plan) {

@@ -130,6 +130,18 @@ TEST(Refusals, ConditionsBetweenValuesNeedValidValues) {
             (Lines{"/sweep/particles/1", "/sweep/particles/2", "/protocol/initial_density"}));
 }
 
+TEST(Refusals, ConditionsBetweenValuesAreReportedWithOtherErrors) {
+  auto manifest = good_manifest();
+  manifest["protocol"] = {{"cohesion", {{"strength", 1e-4}, {"until", "end"}}}, {"target_before_relaxation", true}};
+  manifest["measure"] = {"contacts", "modes", "shear", "moduli"};
+  manifest["replicates"] = {{"min", 9}, {"max", 8}, {"quantity", "phi_j"}, {"half_width", 1}};
+  manifest["shear"] = {{"step", 0.1}};
+  manifest["modes"] = 0;
+  EXPECT_EQ(pointers(manifest.dump()),
+            (Lines{"/replicates/max", "/replicates/quantity", "/protocol/target_before_relaxation", "/measure/1",
+                   "/measure/2", "/measure/3", "/shear/step", "/modes"}));
+}
+
 TEST(Refusals, ManyErrorsAreCutShort) {
   auto manifest = good_manifest();
   for (int n = 0; n < 250; ++n) manifest["sweep"]["solid"].push_back(n);

@@ -63,7 +63,7 @@ TEST(Warnings, DensitiesMustReachBeyondJamming) {
   EXPECT_EQ(of_protocol(gentle), Lines{}) << "consolidation ends just above jamming";
   EXPECT_EQ(of_protocol({{"max_density", 0.5}, {"target_before_relaxation", true}}), each);
   EXPECT_EQ(of_protocol({{"max_steps", 30}}), Lines(5, "/protocol/max_steps"));
-  EXPECT_EQ(of_protocol({{"max_steps", 30}, {"consolidation_step", 0.04}}), Lines{});
+  EXPECT_EQ(of_protocol({{"max_steps", 30}, {"compression_step", 0.04}}), Lines{});
   EXPECT_EQ(warned({{"sweep", {{"solid", {"cube"}}, {"max_density", {0.5, 0.6, 0.93}}}}}), Lines{"/sweep/max_density"});
 }
 
@@ -80,8 +80,8 @@ TEST(Warnings, MinimisersMustReachTheResidual) {
   EXPECT_EQ(of_minimiser(papers), Lines{"/minimiser/energy_change"});
   EXPECT_EQ(warned({{"minimiser", papers}, {"exclude", {"crystalline"}}}), Lines{});
   EXPECT_EQ(of_minimiser({{"method", "lbfgs"}, {"residual", 1e-3}}), Lines{});
-  EXPECT_EQ(of_protocol({{"consolidation_evaluations", 100}}), Lines{"/protocol/consolidation_evaluations"});
-  EXPECT_EQ(warned({{"sweep", {{"solid", {"cube"}}}}, {"protocol", {{"consolidation_evaluations", 100}}}}), Lines{});
+  EXPECT_EQ(of_protocol({{"compression_evaluations", 100}}), Lines{"/protocol/compression_evaluations"});
+  EXPECT_EQ(warned({{"sweep", {{"solid", {"cube"}}}}, {"protocol", {{"compression_evaluations", 100}}}}), Lines{});
 }
 
 TEST(Warnings, KeysWithoutEffect) {

@@ -19,7 +19,7 @@ ReplicateSpec spec_of(double strength) {
                 {"replicates", 1},
                 {"measure", {"contacts", "order", "clusters", "percolation"}}};
   Json& protocol = manifest["protocol"];
-  protocol = {{"initial_density", 0.2}, {"consolidation_step", 0.03}, {"final_distance", 0.02}, {"fit_window", 0.06}};
+  protocol = {{"initial_density", 0.2}, {"compression_step", 0.03}, {"final_distance", 0.02}, {"fit_window", 0.06}};
   if (strength > 0) {
     protocol["target_energy"] = 1e-8;
     protocol["cohesion"] = {{"strength", strength}, {"until", "end"}};

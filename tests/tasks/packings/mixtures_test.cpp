@@ -76,7 +76,7 @@ TEST(Mixtures, InvalidMixturesAreRejectedAtTheirPlace) {
   expect(said(mixture({kind("cube", 1, {{"gamma", 2}})})), "/sweep/solid/0/mixture/0/size/gamma");
   expect(said(mixture({kind("cube", 1, Json::object())})), "the sizes need exactly one distribution");
   expect(said(mixture({kind("sphere", 1)})), "/sweep/solid/0/mixture/0/solid");
-  expect(said(mixture({})), "1 to 32 kinds");
+  expect(said(mixture({})), "a list of 1 to 32");
   expect(said(mixture({kind("cube", .999), kind("octahedron", .001)})), "its rarest kind would have no particle");
   expect(said(mixture({kind("cube", .999), kind("octahedron", .001)})), "use at least 1000 particles");
   // One particle in a hundred is ten times as long: N must be so large that the cell is longer than two of its

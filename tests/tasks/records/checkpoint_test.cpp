@@ -15,7 +15,7 @@ namespace {
 ReplicateSpec tiny_spec(std::size_t index = 0, const char* method = "multipliers", long max_evaluations = 2000) {
   auto manifest = test::tiny_manifest();
   manifest["measure"] = {"contacts"};
-  manifest["protocol"]["consolidation_evaluations"] = 2000;  // replicate 1 jams with these packings
+  manifest["protocol"]["compression_evaluations"] = 2000;  // replicate 1 jams with these packings
   manifest["minimiser"]["method"] = method;
   manifest["minimiser"]["max_evaluations"] = max_evaluations;
   return test::make_plan(parse_manifest(manifest.dump(), "tiny"))[index];

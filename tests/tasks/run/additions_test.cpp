@@ -109,7 +109,7 @@ TEST_F(Adding, GivesTheRecordsOfARunWithAllMeasures) {
 TEST_F(Adding, RelaxesSaddlesAsARunDoes) {
   auto manifest = parse_json(
       R"({"name": "saddle", "seed": 2, "minimiser": {"method": "newton"}, "sweep": {"solid": ["icosahedron"], "particles": [40]},
-                                 "replicates": 1, "protocol": {"final_distance": 0.015, "consolidation_evaluations": 2000}, "keep_path": true,
+                                 "replicates": 1, "protocol": {"final_distance": 0.015, "compression_evaluations": 2000}, "keep_path": true,
                                  "measure": ["contacts", "clusters", "modes"]})",
       "saddle");
   fs::remove_all(here_ / "few"), fs::remove_all(here_ / "all");

@@ -71,7 +71,7 @@ TEST_F(AddingToNearest, GivesTheValuesOfARunWithAllMeasures) {
 TEST_F(AddingToNearest, RelaxesASaddle) {
   run(parse_json(
           R"({"name": "saddle", "seed": 2, "minimiser": {"method": "newton"}, "sweep": {"solid": ["icosahedron"], "particles": [40]},
-                     "replicates": 4, "protocol": {"final_distance": 0.015, "consolidation_evaluations": 2000}, "measure": ["contacts"]})",
+                     "replicates": 4, "protocol": {"final_distance": 0.015, "compression_evaluations": 2000}, "measure": ["contacts"]})",
           "saddle"),
       "few");
   std::map<std::string, Json> before;

@@ -86,7 +86,7 @@ std::pair<std::string, int> on_a_terminal(const std::function<void()>& work, int
   }
   std::string text;
   char buffer[4096];
-  for (ssize_t n = 0; (n = read(terminal, buffer, sizeof buffer)) > 0;)
+  for (ssize_t n = 0; (n = ::read(terminal, buffer, sizeof buffer)) > 0;)
     text.append(buffer, static_cast<std::size_t>(n));
   int status = 0;
   waitpid(child, &status, 0);
@@ -139,7 +139,7 @@ Json tiny_manifest() {
     "name": "tiny", "seed": 7,
     "sweep": {"solid": ["dodecahedron"], "particles": [24, 28]},
     "replicates": 2,
-    "protocol": {"initial_density": 0.3, "consolidation_step": 0.07, "target_energy": 3e-7, "longest_step": 0.03,
+    "protocol": {"initial_density": 0.3, "compression_step": 0.07, "target_energy": 3e-7, "longest_step": 0.03,
                  "step_fraction": 0.4, "final_distance": 0.03, "fit_window": 0.1},
     "minimiser": {"residual": 1e-3, "max_evaluations": 2000},
     "measure": ["contacts", "order", "clusters", "modes", "moduli", "rigidity"]
