@@ -54,6 +54,21 @@ void write_field(Json& object, const FieldEntry& field, const MemberRef& member)
   object[field.key] = std::move(json);
 }
 
+/// Calls `work` with the field, or if its key has stars with the fields for which it stands. `size` returns the number
+/// of elements of a list, whose keys it is given.
+template <class Size, class Work>
+void for_each_numbered(const FieldEntry& field, const Size& size, const Work& work) {
+  if (field.key.find('*') == std::string::npos) return work(field);
+  const auto& list = std::get<Many>(field.member);
+  const std::size_t count = size(list, field.key);
+  for (std::size_t k = 0; k < count; ++k) {
+    FieldEntry one = field;
+    one.key = numbered(field.key, k + 1);
+    one.member = list.at(k);
+    for_each_numbered(one, size, work);
+  }
+}
+
 // ---- Reading --------------------------------------------------------------------------------------------------------
 double read_number(const JsonPlace& place, const FieldEntry& field) {
   return place.number(field.allowed.value_or(any_number));
@@ -96,11 +111,15 @@ void read_list(const JsonPlace& place, const FieldEntry& field, const Many& list
   if (count < list.least || count > list.most)
     place.refuse(count == 0 ? "the list is empty" : "the list has the wrong length", allowed_length(list));
   list.resize(count);
+  if (list.numbers && !list.all_different && list.numbers(place.value(), field.allowed)) return;
   const auto first = place.value().begin();
   for (std::size_t k = 0; k < count; ++k) {
     const auto entry = place.at(k);
     place.attempt([&] {
-      read_value(entry, field, list.at(k));
+      const auto element = list.at(k);
+      const auto* const maybe = std::get_if<Maybe>(&element);
+      if (maybe && entry.value().is_null()) return maybe->clear();
+      read_value(entry, field, element);
       const auto earlier = first + static_cast<std::ptrdiff_t>(k);
       if (list.all_different && std::find(first, earlier, entry.value()) != earlier)
         entry.refuse_with_remedy(fmt::format("{} is given twice", compact(entry.value())), "give each value once");
@@ -113,16 +132,14 @@ double not_a_finite_number(const JsonPlace& object, const FieldEntry& field) {
                                                                   : std::numeric_limits<double>::quiet_NaN();
 }
 
-void read_field(const JsonPlace& object, const FieldEntry& field) {
-  const auto place = object.at(field.key);
-  if (field.presence == Presence::if_true && place.value() != true) place.not_accepted("true");
-  if (!place.value().is_null()) return read_value(place, field, field.member);
-  if (auto* const* number = std::get_if<double*>(&field.member); number && !field.finite_only) {
+void read_null(const JsonPlace& object, const FieldEntry& field, const MemberRef& member) {
+  if (auto* const* number = std::get_if<double*>(&member); number && !field.finite_only) {
     **number = not_a_finite_number(object, field);
     return;
   }
-  const auto* const maybe = std::get_if<Maybe>(&field.member);
-  if (!maybe || !maybe->reason) return read_value(place, field, field.member);
+  const auto* const maybe = std::get_if<Maybe>(&member);
+  if (!maybe) return read_value(object.at(field.key), field, member);
+  if (!maybe->reason) return read_null(object, field, maybe->value());
   *maybe->reason = object.at(field.key + "_reason").text();
   maybe->clear();
   if (std::find(not_finite.begin(), not_finite.end(), *maybe->reason) == not_finite.end()) return;
@@ -134,33 +151,69 @@ void read_field(const JsonPlace& object, const FieldEntry& field) {
   }
 }
 
+void read_field(const JsonPlace& object, const FieldEntry& field) {
+  const auto place = object.at(field.key);
+  if (field.presence == Presence::if_true && place.value() != true) place.not_accepted("true");
+  if (place.value().is_null()) return read_null(object, field, field.member);
+  read_value(place, field, field.member);
+}
+
 bool can_be_absent(const FieldEntry& field) {
   const auto* const maybe = std::get_if<Maybe>(&field.member);
   return field.presence != Presence::always || (maybe && !maybe->reason);
 }
 
-bool can_be_null(const FieldEntry& field) {
-  const auto* const maybe = std::get_if<Maybe>(&field.member);
-  return maybe ? maybe->reason != nullptr : std::holds_alternative<double*>(field.member) && !field.finite_only;
+bool can_be_null(const FieldEntry& field, const MemberRef& member) {
+  if (const auto* const maybe = std::get_if<Maybe>(&member)) return maybe->reason || can_be_null(field, maybe->example());
+  return std::holds_alternative<double*>(member) && !field.finite_only;
 }
 
 }  // namespace
 
+std::string numbered(std::string text, std::size_t number) {
+  const auto star = text.find('*');
+  return star == std::string::npos ? text : text.replace(star, 1, std::to_string(number));
+}
+
 Json written(const Fields& fields) {
   Json object = Json::object();
-  for (const auto& field : fields.list) write_field(object, field, field.member);
+  for (const auto& field : fields.list)
+    for_each_numbered(
+        field, [](const Many& list, const std::string&) { return list.size(); },
+        [&](const FieldEntry& one) { write_field(object, one, one.member); });
   return object;
 }
 
 void read_into(const JsonPlace& place, const Fields& fields, Missing missing) {
+  place.expect_object("an object");
   for (const auto& removed : fields.removed)
     place.read_if_any(removed.first,
                       [&](const JsonPlace& value) { value.refuse_with_remedy("the key was removed", removed.second); });
+  std::vector<FieldEntry> numbered_fields;
+  // The numbers of a list begin with 1 and have no gap.
+  const auto size = [&](const Many& list, const std::string& key) {
+    std::size_t count = 0;
+    const auto is_there = [&](std::string name) {
+      while (name.find('*') != std::string::npos) name = numbered(name, 1);
+      return place.has(name);
+    };
+    while (is_there(numbered(key, count + 1))) ++count;
+    list.resize(count);
+    return count;
+  };
+  for (const auto& field : fields.list) {
+    if (field.key.find('*') != std::string::npos)
+      for_each_numbered(field, size, [&](const FieldEntry& one) { numbered_fields.push_back(one); });
+  }
+  std::vector<const FieldEntry*> all;
+  for (const auto& field : fields.list)
+    if (field.key.find('*') == std::string::npos) all.push_back(&field);
+  for (const auto& field : numbered_fields) all.push_back(&field);
   std::vector<std::string> reasons;
   std::vector<std::string_view> known;
-  for (const auto& field : fields.list) {
-    known.emplace_back(field.key);
-    if (can_be_null(field)) reasons.push_back(field.key + "_reason");
+  for (const auto* field : all) {
+    known.emplace_back(field->key);
+    if (can_be_null(*field, field->member)) reasons.push_back(field->key + "_reason");
   }
   known.insert(known.end(), reasons.begin(), reasons.end());
   const auto new_name = [&](std::string_view key) {
@@ -169,9 +222,9 @@ void read_into(const JsonPlace& place, const Fields& fields, Missing missing) {
     return std::string();
   };
   place.expect_keys(known, new_name);
-  for (const auto& field : fields.list) {
-    if (place.has(field.key) || (missing == Missing::refused && !can_be_absent(field)))
-      place.attempt([&] { read_field(place, field); });
+  for (const auto* field : all) {
+    if (place.has(field->key) || (missing == Missing::refused && !can_be_absent(*field)))
+      place.attempt([&] { read_field(place, *field); });
   }
 }
 

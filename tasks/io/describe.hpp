@@ -27,7 +27,9 @@
 // From it follow written(bins), read<Bins>(place) and fields_of<Bins>(), and from the fields the schema, the page of
 // fields, the columns of tables and the quantities of a measure (tasks/io/fields.hpp). The order of the fields is that
 // of the file. A member may be a number, a bool, a text, an enumerator with a name, a Reasoned value, another described
-// struct, an optional of one of these (absent in the file if it has no value), a list of these, or a Custom value.
+// struct, an optional of one of these (absent in the file if it has no value), a list of these, or a Custom value. A key
+// with stars stands for keys with numbers from 1 in their place: with `kind_*`, the elements of a list are the fields
+// kind_1, kind_2, …; with `Z_*_*`, the fields Z_1_1, Z_1_2, … are the elements of a list of lists.
 
 namespace isojam {
 
@@ -59,13 +61,17 @@ struct QuantityGroup {
 
 /// What tables add to a field that is a quantity.
 struct Column {
-  std::string_view name;  ///< name in tables: the symbol of the paper, if there is one
-  QuantityGroup group;    ///< the table of main_group is the first one
-  std::string_view latex;
+  std::string name = {};     ///< name in tables: the symbol of the paper, if there is one
+  QuantityGroup group = {};  ///< the table of main_group is the first one
+  std::string latex = {};
   bool proportion = false;  ///< true if each value is 0 or 1, so that the mean is a proportion
   /// smallest number of kinds of particles for which a packing has the quantity
   int kinds = 1;
   bool cohesive = false;  ///< true if only packings with cohesion at zero pressure have the quantity
+  /// Meaning among all quantities, if that of the field is clear only inside its object.
+  std::string meaning = {};
+  /// Quantities of a group are sorted by this number; those with the same number have the order of the file.
+  int place = 0;
 };
 
 class Fields;
@@ -123,6 +129,9 @@ enum class Presence : std::uint8_t {
   if_true,   ///< written only if the bool is true
   if_any,    ///< written only if the list has entries
 };
+
+/// A copy of the text with a number in place of the first star.
+std::string numbered(std::string text, std::size_t number);
 
 /// All that is known of a field. Its functions can be chained behind the call that adds it.
 struct FieldEntry {

@@ -16,6 +16,11 @@ struct Core {
 };
 Core core_of(const FieldEntry& field) {
   Core core{field.member};
+  for (auto stars = std::count(field.key.begin(), field.key.end(), '*'); stars > 0; --stars) {
+    MemberRef element = std::get<Many>(core.member).example();
+    core.member = std::move(element);
+    core.optional = true;
+  }
   while (const auto* const maybe = std::get_if<Maybe>(&core.member)) {
     (maybe->reason ? core.nullable : core.optional) = true;
     MemberRef inner = maybe->example();
@@ -80,7 +85,15 @@ Json initial_value(const FieldEntry& field) {
   return value;
 }
 
+Json or_null(Json value) {
+  if (!value.contains("type") || !value.at("type").is_string()) return {{"anyOf", {std::move(value), {{"type", "null"}}}}};
+  value["type"] = {value.at("type"), "null"};
+  return value;
+}
+
 Json value_schema(const FieldEntry& field, const MemberRef& member, Json& definitions) {
+  if (const auto* const maybe = std::get_if<Maybe>(&member))
+    return or_null(value_schema(field, maybe->example(), definitions));
   if (const auto* const list = std::get_if<Many>(&member)) {
     Json json{{"type", "array"}, {"items", value_schema(field, list->example(), definitions)}};
     if (list->least > 0) json["minItems"] = list->least;
@@ -116,13 +129,7 @@ Json field_schema(const FieldEntry& field, const Core& core, Json& definitions) 
   Json json = Json::object();
   if (!field.meaning.empty()) json["description"] = field.meaning;
   auto value = value_schema(field, core.member, definitions);
-  if (core.nullable) {
-    if (value.contains("type") && value.at("type").is_string()) {
-      value["type"] = {value.at("type"), "null"};
-    } else {
-      value = {{"anyOf", {std::move(value), {{"type", "null"}}}}};
-    }
-  }
+  if (core.nullable) value = or_null(std::move(value));
   // Beside $ref, draft-07 ignores all other keys.
   if (value.contains("$ref") && !field.meaning.empty()) value = {{"allOf", Json::array({std::move(value)})}};
   json.update(value);
@@ -134,6 +141,12 @@ Json object_schema(const Fields& fields, Json& definitions) {
   Json json{{"type", "object"}}, properties = Json::object(), required = Json::array();
   for (const auto& field : fields.list) {
     const auto core = core_of(field);
+    if (field.key.find('*') != std::string::npos) {
+      std::string pattern;
+      for (const char c : field.key) pattern += c == '*' ? "[1-9][0-9]*" : std::string(1, c);
+      json["patternProperties"]["^" + pattern + "$"] = field_schema(field, core, definitions);
+      continue;
+    }
     properties[field.key] = field_schema(field, core, definitions);
     if (!core.optional) required.push_back(field.key);
     if (!core.nullable) continue;
@@ -227,9 +240,42 @@ std::vector<FieldSection> sections_of(const Fields& fields, const std::string& t
   return sections;
 }
 
+namespace {
+
+/// Columns of a field whose key has a star. Tables have them for the first four kinds of particles.
+void add_numbered(const FieldEntry& field, const std::string& pointer, std::vector<FlatColumn>& columns) {
+  const auto put_number = [](Column& column, std::size_t number) {
+    if (column.name.empty()) return;
+    column.name = numbered(column.name, number);
+    column.latex = numbered(column.latex, number);
+    column.meaning = numbered(column.meaning, number);
+    column.kinds = std::max(column.kinds, static_cast<int>(number));
+  };
+  for (std::size_t number = 1; number <= 4; ++number) {
+    FieldEntry one = field;
+    one.key = numbered(field.key, number);
+    one.member = std::get<Many>(field.member).example();
+    put_number(one.quantity, number);
+    for (auto& column : columns_of(Fields{"", "", {one}, {}}, pointer)) {
+      column.can_be_absent = true;
+      if (column.field.quantity.name.find('*') != std::string::npos) {
+        put_number(column.field.quantity, number);
+        column.name = column.field.quantity.name;
+      }
+      columns.push_back(std::move(column));
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<FlatColumn> columns_of(const Fields& fields, const std::string& pointer) {
   std::vector<FlatColumn> columns;
   for (const auto& field : fields.list) {
+    if (field.key.find('*') != std::string::npos) {
+      add_numbered(field, pointer, columns);
+      continue;
+    }
     const auto core = core_of(field);
     const auto below = pointer + pointer_step(field.key);
     if (std::holds_alternative<Many>(core.member) || std::holds_alternative<Custom>(core.member)) continue;
