@@ -74,7 +74,7 @@ Rearrangements rearrangements(std::span<const JamStep> path) {
   int arrived = 0;
   for (const JamStep& step : path) {
     found.steps += step.rearrangement || step.lost;
-    found.is_rearranged += is_rearranged(step);
+    found.count += is_rearranged(step);
     if (!is_rearranged(step) || !step.rearrangement) continue;
     ++arrived;
     moved += step.rearrangement->particles_moved;

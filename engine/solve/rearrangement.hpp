@@ -35,7 +35,7 @@ bool is_rearranged(const JamStep& step);
 struct Rearrangements {
   /// number of steps that led from an equilibrium to the next equilibrium or to the end of a solution branch
   int steps = 0;
-  int is_rearranged = 0;  ///< number of these steps that contain a rearrangement
+  int count = 0;  ///< number of these steps that contain a rearrangement
   /// means over the rearranged steps that led to another equilibrium; nullopt if there is no such step
   std::optional<double> particles_moved, contacts_lost, contacts_gained;
 };

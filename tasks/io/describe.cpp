@@ -164,7 +164,8 @@ bool can_be_absent(const FieldEntry& field) {
 }
 
 bool can_be_null(const FieldEntry& field, const MemberRef& member) {
-  if (const auto* const maybe = std::get_if<Maybe>(&member)) return maybe->reason || can_be_null(field, maybe->example());
+  if (const auto* const maybe = std::get_if<Maybe>(&member))
+    return maybe->reason || can_be_null(field, maybe->example());
   return std::holds_alternative<double*>(member) && !field.finite_only;
 }
 

@@ -86,7 +86,8 @@ Json initial_value(const FieldEntry& field) {
 }
 
 Json or_null(Json value) {
-  if (!value.contains("type") || !value.at("type").is_string()) return {{"anyOf", {std::move(value), {{"type", "null"}}}}};
+  if (!value.contains("type") || !value.at("type").is_string())
+    return {{"anyOf", {std::move(value), {{"type", "null"}}}}};
   value["type"] = {value.at("type"), "null"};
   return value;
 }

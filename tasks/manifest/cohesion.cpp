@@ -46,10 +46,8 @@ void refuse_measures(const JsonPlace& root, const Manifest& manifest) {
 }
 
 void refuse_goal(const JsonPlace& root, const Manifest& manifest) {
-  if (!manifest.replicates.goal || manifest.replicates.goal->quantity != phi_j_quantity.name) return;
-  root.at("replicates")
-      .at("quantity")
-      .refuse_with_remedy("packings at zero pressure have no phi_j", fmt::format("use \"{}\"", phi_0_quantity.name));
+  if (!manifest.replicates.goal || manifest.replicates.goal->quantity != "phi_j") return;
+  root.at("replicates").at("quantity").refuse_with_remedy("packings at zero pressure have no phi_j", "use \"phi_0\"");
 }
 
 }  // namespace

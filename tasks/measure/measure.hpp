@@ -32,10 +32,21 @@ struct Measurement {
   bool nearest_only = false;
 };
 
+/// The fields that a measure adds to the record of a state or of a replicate. Both functions are null if it adds none.
+struct MeasurePart {
+  Fields (*fields)() = nullptr;
+  /// Throws InputError, or notes the errors if the place collects them, unless an object has exactly these fields.
+  void (*check)(const JsonPlace& place) = nullptr;
+};
+/// The part whose fields T describes.
+template <Described T>
+constexpr MeasurePart part_of() {
+  return {fields_of<T>, [](const JsonPlace& place) { read<T>(place); }};
+}
+
 /// Definition of a measure.
 struct MeasureDefinition {
-  /// quantities of the measure that are columns of tables
-  std::span<const Quantity> quantities;
+  MeasurePart state = {}, replicate = {};
   /// function that computes the measure
   Measurement (*measure)(const JamResult& jam, const MeasureOptions& options);
   std::span<const Flag> flags = {};  ///< flags that this measure sets, in the order in which the record lists them

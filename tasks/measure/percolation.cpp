@@ -13,48 +13,111 @@ namespace {
 
 // Clusters of face-face contacts, for the three methods that find the cut-off, and the null hypothesis of random bonds.
 
+struct RandomBonds {
+  Reasoned<> S, largest, winds;
+  std::optional<int> draws;
+  std::optional<double> winds_in_two, winds_in_three;
+};
+struct ClustersByMethod {
+  Reasoned<> S, largest;
+  Reasoned<int> winding_rank;
+  std::optional<std::size_t> bonds;
+  std::optional<std::vector<std::array<int, 2>>> sizes;
+  RandomBonds random;
+};
+struct Percolations {
+  ClustersByMethod fit, gap, trough;
+};
+
 constexpr QuantityGroup group{
     "percolation",
     "Clusters of face-face contacts with fitted cut-offs, gaps and troughs, and of as many contacts drawn at random."};
 
-/// Quantities of the clusters by one method.
+/// Name of a method, and the cut-off by which it finds face-face contacts.
 struct Method {
-  std::string_view name;
-  Quantity S, largest, winding, S_random, largest_random, winds_random;
-};
-constexpr std::array methods{
-    Method{"fit",
-           {"S_fit", "/percolation/fit/S", group, "particles", "S^{fit}"},
-           {"largest_fit", "/percolation/fit/largest", group, "1", "P_1^{fit}"},
-           {"winding_fit", "/percolation/fit/winding_rank", group, "1", "d_w^{fit}"},
-           {"S_fit_random", "/percolation/fit/random/S", group, "particles", "S^{fit}_r"},
-           {"largest_fit_random", "/percolation/fit/random/largest", group, "1", "P^{fit}_{1,r}"},
-           {"winds_fit_random", "/percolation/fit/random/winds", group, "1", "P^{fit}_{w,r}"}},
-    Method{"gap",
-           {"S_gap", "/percolation/gap/S", group, "particles", "S^{gap}"},
-           {"largest_gap", "/percolation/gap/largest", group, "1", "P_1^{gap}"},
-           {"winding_gap", "/percolation/gap/winding_rank", group, "1", "d_w^{gap}"},
-           {"S_gap_random", "/percolation/gap/random/S", group, "particles", "S^{gap}_r"},
-           {"largest_gap_random", "/percolation/gap/random/largest", group, "1", "P^{gap}_{1,r}"},
-           {"winds_gap_random", "/percolation/gap/random/winds", group, "1", "P^{gap}_{w,r}"}},
-    Method{"trough",
-           {"S_trough", "/percolation/trough/S", group, "particles", "S^{trough}"},
-           {"largest_trough", "/percolation/trough/largest", group, "1", "P_1^{trough}"},
-           {"winding_trough", "/percolation/trough/winding_rank", group, "1", "d_w^{trough}"},
-           {"S_trough_random", "/percolation/trough/random/S", group, "particles", "S^{trough}_r"},
-           {"largest_trough_random", "/percolation/trough/random/largest", group, "1", "P^{trough}_{1,r}"},
-           {"winds_trough_random", "/percolation/trough/random/winds", group, "1", "P^{trough}_{w,r}"}}};
-constexpr std::size_t per_method = 6;
-constexpr auto quantities = [] {
-  std::array<Quantity, methods.size() * per_method> list{};
-  for (std::size_t m = 0; m < methods.size(); ++m) {
-    const Method& method = methods[m];
-    const std::array of{method.S,        method.largest,        method.winding,
-                        method.S_random, method.largest_random, method.winds_random};
-    for (std::size_t k = 0; k < per_method; ++k) list[per_method * m + k] = of[k];
+  std::string name, cutoff;
+
+  Column column(const std::string& quantity, const std::string& latex, const std::string& meaning) const {
+    return {.name = quantity, .group = group, .latex = latex, .meaning = meaning};
   }
-  return list;
-}();
+};
+
+void describe_random(Fields& field, RandomBonds& random, const Method& method) {
+  const std::string drawn = ", for as many random bonds.", latex = "^{" + method.name + "}";
+  field("S", random.S, "Mean cluster size Σs²/Σs.")
+      .unit("particles")
+      .column(
+          method.column("S_" + method.name + "_random", "S" + latex + "_r", "Like `S_" + method.name + "`" + drawn));
+  field("largest", random.largest, "Number of particles in the largest cluster, divided by N.")
+      .column(method.column("largest_" + method.name + "_random", "P^{" + method.name + "}_{1,r}",
+                            "Like `largest_" + method.name + "`" + drawn));
+  field("winds", random.winds,
+        "Share of the draws in which a cluster is connected to its own periodic images in at least one direction.")
+      .range({0, 1})
+      .column(method.column("winds_" + method.name + "_random", "P^{" + method.name + "}_{w,r}",
+                            "Probability that a cluster of as many random bonds is connected to its own periodic "
+                            "image, with the " +
+                                method.cutoff + "."));
+  field("draws", random.draws, "Number of draws.").range({1, count_range.high});
+  field("winds_in_two", random.winds_in_two, "Share of the draws with at least two such directions.")
+      .range({0, 1})
+      .finite();
+  field("winds_in_three", random.winds_in_three, "Share of the draws with three such directions.")
+      .range({0, 1})
+      .finite();
+}
+
+void describe_method(Fields& field, ClustersByMethod& found, const Method& method) {
+  field.type("percolation",
+             "Clusters of the face-face contacts by one method. If the method finds no cut-off, all values are null, "
+             "and `bonds`, `sizes` and `draws` are absent.");
+  const std::string with = ", with the " + method.cutoff + ".", latex = "^{" + method.name + "}";
+  field("S", found.S,
+        "Mean cluster size Σs²/Σs, where s is the number of particles of a cluster and the sums are over all clusters. "
+        "A particle without face-face contacts is a cluster too.")
+      .unit("particles")
+      .column(method.column("S_" + method.name, "S" + latex, "Mean size of the clusters of face-face contacts" + with));
+  field("largest", found.largest, "Number of particles in the largest cluster, divided by N.")
+      .column(method.column("largest_" + method.name, "P_1" + latex,
+                            "Share of the particles that are in the largest cluster of face-face contacts" + with));
+  field("winding_rank", found.winding_rank,
+        "Largest number of independent directions, from 0 to 3, in which a cluster is connected to its own periodic "
+        "images.")
+      .range({0, 3})
+      .column(method.column("winding_" + method.name, "d_w" + latex,
+                            "Number of independent directions in which a cluster of face-face contacts is connected "
+                            "to its own periodic images" +
+                                with));
+  field("bonds", found.bonds, "Number of face-face contacts.");
+  field("sizes", found.sizes,
+        "Numbers of clusters: for each size s that occurs, s and the number n_s of clusters with s particles.")
+      .range({1, count_range.high})
+      .detail();
+  field.nested(
+      "random", [&found, method](Fields& inner) { describe_random(inner, found.random, method); },
+      "Means over draws of random bonds: as many contacts as there are face-face contacts, drawn from all "
+      "contacts of the state.");
+}
+
+void describe(Fields& field, Percolations& all) {
+  const auto add = [&](ClustersByMethod& found, const Method& method) {
+    field.nested(
+        method.name, [&found, method](Fields& inner) { describe_method(inner, found, method); },
+        "Clusters with the " + method.cutoff + ".");
+  };
+  add(all.fit, {"fit", "fitted cut-off"});
+  add(all.gap, {"gap", "cut-off in the gap of the angles"});
+  add(all.trough, {"trough", "cut-off in the trough of the density of log10 θ_ff"});
+}
+
+struct State {
+  Percolations percolation;
+};
+void describe(Fields& field, State& state) {
+  field("percolation", state.percolation,
+        "Clusters that face-face contacts form, for three methods that find the cut-off of θ_ff, and clusters of "
+        "random bonds.");
+}
 
 /// Draws of random bonds for each state and method. With so many, the standard error of a share is at most 0.035.
 constexpr int draws = 200;
@@ -65,7 +128,7 @@ struct FaceFace {
   std::string_view why;
 };
 
-FaceFace by_fit(const Packing&, const ClassifiedContacts& classified) {
+FaceFace by_fit(const ClassifiedContacts& classified) {
   if (!classified.analysis.face_face.has_cutoff()) return {{}, "no face-face cut-off"};
   return {bonds_of(classified.contacts, classified.analysis.classes), ""};
 }
@@ -90,53 +153,46 @@ FaceFace by_gap(const Packing& packing, const ClassifiedContacts& classified) {
   });
 }
 
-FaceFace by_trough(const Packing&, const ClassifiedContacts& classified) {
+FaceFace by_trough(const ClassifiedContacts& classified) {
   const TroughCutoffs troughs = trough_cutoffs(histogram_of(classified));
   if (!troughs.has_face_face()) return {{}, "no trough in θ_ff"};
   return below(classified, [&](const Contact&) { return angle_bin_edge(troughs.face_face.cutoff); });
 }
 
-void put_method(Json& state, const Method& method, const Packing& packing, const ClassifiedContacts& classified,
-                const FaceFace& face_face) {
+ClustersByMethod clusters_of(const Packing& packing, const ClassifiedContacts& classified, const FaceFace& face_face) {
+  ClustersByMethod record;
   if (!face_face.why.empty()) {
-    for (const Quantity& quantity :
-         {method.S, method.largest, method.winding, method.S_random, method.largest_random, method.winds_random})
-      put(state, quantity, std::nullopt, face_face.why);
-    return;
+    auto& random = record.random;
+    for (auto* value : {&record.S, &record.largest, &random.S, &random.largest, &random.winds})
+      value->reason = face_face.why;
+    record.winding_rank.reason = face_face.why;
+    return record;
   }
   std::vector<NeighbourPair> all;
   for (const Contact& contact : classified.contacts) all.push_back(contact.pair);
   const auto& bonds = face_face.bonds;
   const Percolation found = percolation(packing, bonds);
-  put(state, method.S, found.S);
-  put(state, method.largest, found.largest);
-  put(state, method.winding, found.winding_rank);
-  Json& json = place_of(state, method.S).object;
-  json["bonds"] = bonds.size();
-  json["sizes"] = Json::array();
-  for (const auto& [size, clusters] : found.sizes) json["sizes"].push_back({size, clusters});
   RandomStream random{static_cast<std::uint64_t>(Purpose::percolation), static_cast<std::uint64_t>(packing.size()),
                       all.size(), bonds.size()};
   const RandomPercolation null = random_percolation(packing, all, bonds.size(), draws, random);
-  put(state, method.S_random, null.S);
-  put(state, method.largest_random, null.largest);
-  put(state, method.winds_random, null.winds[0]);
-  json["random"]["draws"] = draws;
-  json["random"]["winds_in_two"] = null.winds[1];
-  json["random"]["winds_in_three"] = null.winds[2];
+  record.S.value = found.S;
+  record.largest.value = found.largest;
+  record.winding_rank.value = found.winding_rank;
+  record.bonds = bonds.size();
+  record.sizes.emplace();
+  for (const auto& [size, clusters] : found.sizes) record.sizes->push_back({size, clusters});
+  record.random = {{null.S, ""}, {null.largest, ""}, {null.winds[0], ""}, draws, null.winds[1], null.winds[2]};
+  return record;
 }
 
 Measurement measure_percolation(const JamResult& jam, const MeasureOptions&) {
   Measurement measurement;
   PackingEnergy energy;
-  constexpr std::array<FaceFace (*)(const Packing&, const ClassifiedContacts&), methods.size()> find{by_fit, by_gap,
-                                                                                                     by_trough};
   for (const Packing& packing : jam.states) {
     const auto classified = classified_contacts(packing, energy);
-    Json state;
-    for (std::size_t m = 0; m < methods.size(); ++m)
-      put_method(state, methods[m], packing, classified, find[m](packing, classified));
-    measurement.states.push_back(std::move(state));
+    const auto found = [&](const FaceFace& face_face) { return clusters_of(packing, classified, face_face); };
+    measurement.states.push_back(
+        written(State{{found(by_fit(classified)), found(by_gap(packing, classified)), found(by_trough(classified))}}));
   }
   return measurement;
 }
@@ -144,6 +200,6 @@ Measurement measure_percolation(const JamResult& jam, const MeasureOptions&) {
 }  // namespace
 
 const MeasureDefinition measures::percolation{
-    .quantities = quantities, .measure = measure_percolation, .at_zero_pressure = true};
+    .state = part_of<State>(), .measure = measure_percolation, .at_zero_pressure = true};
 
 }  // namespace isojam

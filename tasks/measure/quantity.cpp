@@ -4,28 +4,57 @@
 #include <cassert>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "tasks/io/fields.hpp"
 #include "tasks/measure/measure.hpp"
 #include "tasks/measure/rearrangements.hpp"
 
 namespace isojam {
 namespace {
 
-std::vector<Quantity> in_order_of_tables() {
-  std::vector<Quantity> list{phi_j_quantity, phi_0_quantity};
-  for (const Measure measure : all_measures) {
-    for (Quantity quantity : definition_of(measure).quantities) {
-      quantity.measure = measure;
-      list.push_back(quantity);
-    }
+constexpr std::string_view meaning_of_phi_j =
+    "Jamming density φ_J: the density at E = 0, from a line that is fitted to φ as a function of (E/N)^(1/6). Packings "
+    "with cohesion at zero pressure have none; `phi_0` takes its place.";
+constexpr std::string_view meaning_of_phi_0 = "Density at zero pressure, of packings with cohesion.";
+
+/// A quantity, and its place among those of its group.
+struct Placed {
+  Quantity quantity;
+  int place = 0;
+};
+
+void add(std::vector<Placed>& list, const Fields& fields, Quantity::Of of, std::optional<Measure> measure) {
+  for (auto& [name, pointer, field, can_be_absent] : columns_of(fields)) {
+    const Column& column = field.quantity;
+    if (column.name.empty()) continue;
+    list.push_back({{name, pointer, column.group, field.unit_name.empty() ? "1" : field.unit_name, column.latex,
+                     column.meaning.empty() ? field.meaning : column.meaning, of, measure, column.proportion,
+                     column.kinds, column.cohesive},
+                    column.place});
   }
-  for (const Quantity& quantity : rearrangement_quantities()) list.push_back(quantity);
+}
+
+std::vector<Quantity> in_order_of_tables() {
+  constexpr auto of = Quantity::Of::replicate;
+  std::vector<Placed> list(2);
+  list[0].quantity = {"phi_j", "/phi_j/phi_j", main_group, "1", "\\phi_J", std::string(meaning_of_phi_j), of};
+  list[1].quantity = {"phi_0", "/phi_0", main_group, "1", "\\phi_0", std::string(meaning_of_phi_0), of};
+  list[1].quantity.cohesive = true;
+  for (const Measure measure : all_measures) {
+    const auto& definition = definition_of(measure);
+    if (definition.state.fields) add(list, definition.state.fields(), Quantity::Of::state, measure);
+    if (definition.replicate.fields) add(list, definition.replicate.fields(), of, measure);
+  }
+  add(list, fields_of<RearrangementPart>(), of, std::nullopt);
   std::map<std::string_view, std::size_t> last;
-  for (std::size_t k = 0; k < list.size(); ++k) last[list[k].group.name] = k;
-  std::stable_sort(list.begin(), list.end(),
-                   [&](const Quantity& a, const Quantity& b) { return last.at(a.group.name) < last.at(b.group.name); });
-  return list;
+  for (std::size_t k = 0; k < list.size(); ++k) last[list[k].quantity.group.name] = k;
+  const auto rank = [&](const Placed& entry) { return std::pair(last.at(entry.quantity.group.name), entry.place); };
+  std::stable_sort(list.begin(), list.end(), [&](const Placed& a, const Placed& b) { return rank(a) < rank(b); });
+  std::vector<Quantity> quantities;
+  for (auto& entry : list) quantities.push_back(std::move(entry.quantity));
+  return quantities;
 }
 
 }  // namespace
@@ -46,21 +75,6 @@ const Quantity& quantity(std::string_view name) {
   const auto index = quantity_index(name);
   assert(index);
   return all_quantities()[*index];
-}
-
-QuantityPlace place_of(Json& record, const Quantity& quantity) {
-  const Json::json_pointer pointer{std::string(quantity.pointer)};
-  return {record[pointer.parent_pointer()], pointer.back()};
-}
-
-void put(Json& record, const Quantity& quantity, double value) {
-  const auto place = place_of(record, quantity);
-  put_number(place.object, place.key, value);
-}
-
-void put(Json& record, const Quantity& quantity, const std::optional<double>& value, std::string_view reason) {
-  const auto place = place_of(record, quantity);
-  put_optional(place.object, place.key, value, reason);
 }
 
 }  // namespace isojam

@@ -1,33 +1,45 @@
 #include "tasks/measure/rearrangements.hpp"
 
-#include <array>
-
 #include "engine/solve/rearrangement.hpp"
 
 namespace isojam {
-namespace {
 
-constexpr QuantityGroup group{"rearrangements", "Rearrangements between the states of the decompression."};
-constexpr auto of = Quantity::Of::replicate;
-constexpr Quantity rearrangement_count{"rearrangements", "/rearrangements/count", group, "1", "n_r", of};
-constexpr Quantity expansion_steps{"expansion_steps", "/rearrangements/steps", group, "1", "n_s", of};
-constexpr Quantity particles_moved{"particles_moved", "/rearrangements/particles_moved", group, "1", "N_m", of};
-constexpr Quantity contacts_lost{"contacts_lost", "/rearrangements/contacts_lost", group, "1", "n_-", of};
-constexpr Quantity contacts_gained{"contacts_gained", "/rearrangements/contacts_gained", group, "1", "n_+", of};
-constexpr std::array quantities{rearrangement_count, expansion_steps, particles_moved, contacts_lost, contacts_gained};
+void describe(Fields& field, RearrangementCounts& counts) {
+  constexpr QuantityGroup group{"rearrangements", "Rearrangements between the states of the decompression."};
+  field("count", counts.count, "Number of rearrangements in the decompression.")
+      .column({"rearrangements", group, "n_r"});
+  field("steps", counts.steps,
+        "Number of decompression steps that reached the next equilibrium, or in which the solution branch ended. Steps "
+        "that failed and were repeated are not counted.")
+      .column({"expansion_steps", group, "n_s"});
+  field("particles_moved", counts.particles_moved,
+        "Mean number of particles that moved in a rearrangement. Rearrangements in which the solution branch ended are "
+        "left out.")
+      .range(not_negative)
+      .column({"particles_moved", group, "N_m"});
+  field("contacts_lost", counts.contacts_lost,
+        "Mean number of contacts that were lost in a rearrangement. Rearrangements in which the solution branch ended "
+        "are left out.")
+      .range(not_negative)
+      .column({"contacts_lost", group, "n_-"});
+  field("contacts_gained", counts.contacts_gained,
+        "Mean number of contacts that were gained in a rearrangement. Rearrangements in which the solution branch "
+        "ended are left out.")
+      .range(not_negative)
+      .column({"contacts_gained", group, "n_+"});
+}
 
-}  // namespace
+void describe(Fields& field, RearrangementPart& part) {
+  field("rearrangements", part.rearrangements,
+        "Rearrangements in the decompression. A decompression step is a rearrangement if the energy after it is less "
+        "than half of the value that E ∝ Δφ⁶ predicts, or if the solution branch ends in it.");
+}
 
-std::span<const Quantity> rearrangement_quantities() { return quantities; }
-
-void put_rearrangements(Json& record, std::span<const JamStep> path) {
+RearrangementPart rearrangement_part(std::span<const JamStep> path) {
   const auto found = rearrangements(path);
-  put(record, rearrangement_count, found.is_rearranged);
-  put(record, expansion_steps, found.steps);
   constexpr std::string_view none = "the packing gave way in no step that led to another equilibrium";
-  put(record, particles_moved, found.particles_moved, none);
-  put(record, contacts_lost, found.contacts_lost, none);
-  put(record, contacts_gained, found.contacts_gained, none);
+  return {{found.count, found.steps, reasoned(found.particles_moved, none), reasoned(found.contacts_lost, none),
+           reasoned(found.contacts_gained, none)}};
 }
 
 }  // namespace isojam

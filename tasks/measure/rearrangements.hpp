@@ -3,17 +3,24 @@
 #include <span>
 
 #include "engine/solve/jam.hpp"
-#include "tasks/measure/quantity.hpp"
+#include "tasks/io/describe.hpp"
 
 namespace isojam {
 
-/// Quantities of the decompression itself, which belong to no measure. They are the numbers of steps and of
-/// rearrangements, and three means over rearrangements: the numbers of moved particles, of lost contacts and of gained
-/// contacts.
-std::span<const Quantity> rearrangement_quantities();
+/// Quantities of the decompression itself, which belong to no measure.
+struct RearrangementCounts {
+  int count = 0, steps = 0;
+  Reasoned<> particles_moved, contacts_lost, contacts_gained;
+};
+void describe(Fields& field, RearrangementCounts& counts);
 
-/// Writes these quantities to the record of a replicate. `path` is the list of all its strain steps, see
-/// rearrangements().
-void put_rearrangements(Json& record, std::span<const JamStep> path);
+/// What they add to the record of a replicate.
+struct RearrangementPart {
+  RearrangementCounts rearrangements;
+};
+void describe(Fields& field, RearrangementPart& part);
+
+/// `path` is the list of all strain steps of a replicate, see rearrangements().
+RearrangementPart rearrangement_part(std::span<const JamStep> path);
 
 }  // namespace isojam

@@ -6,44 +6,95 @@
 namespace isojam {
 namespace {
 
-constexpr QuantityGroup group{
-    "rigidity", "Numbers of floppy motions and states of self-stress, from the rank of the rigidity matrix."};
-
-/// One set of constraints, and the quantities that are computed from it.
-struct Count {
-  std::string_view rows;  ///< name of the set, a key in the record
-  Quantity self_stress, floppy;
+struct Rank {
+  Reasoned<int> constraints, rank, self_stress, floppy;
+  std::optional<double> tolerance, least_kept, largest_dropped;  ///< absent if the constraints are unknown
 };
-constexpr Count normals{"normals",
-                        {"self_stress_normals", "/rigidity/normals/self_stress", group, "1", "s_n"},
-                        {"floppy_normals", "/rigidity/normals/floppy", group, "1", "f_n"}};
-constexpr Count by_class{"classes",
-                         {"self_stress_classes", "/rigidity/classes/self_stress", group, "1", "s_c"},
-                         {"floppy_classes", "/rigidity/classes/floppy", group, "1", "f_c"}};
-constexpr Count by_trough{"trough",
-                          {"self_stress_trough", "/rigidity/trough/self_stress", group, "1", "s_t"},
-                          {"floppy_trough", "/rigidity/trough/floppy", group, "1", "f_t"}};
-constexpr std::array quantities{normals.self_stress, by_class.self_stress, by_trough.self_stress,
-                                normals.floppy,      by_class.floppy,      by_trough.floppy};
 
-void put_rigidity(Json& state, const Count& count, const RigidityMatrix& matrix) {
-  const auto rigidity = analyse_rigidity(matrix);
-  Json& json = state["rigidity"][std::string(count.rows)];
-  json["constraints"] = rigidity.constraints;
-  json["rank"] = rigidity.rank;
-  put(state, count.self_stress, rigidity.self_stress);
-  put(state, count.floppy, rigidity.floppy);
-  put_number(json, "tolerance", rigidity.tolerance);
-  put_number(json, "least_kept", rigidity.least_kept);
-  put_number(json, "largest_dropped", rigidity.largest_dropped);
+/// `name` is the ending of the names of the quantities, `letter` that of their symbols.
+void describe_rank(Fields& field, Rank& rank, const std::string& name, const std::string& letter,
+                   const std::string& condition) {
+  constexpr QuantityGroup group{
+      "rigidity", "Numbers of floppy motions and states of self-stress, from the rank of the rigidity matrix."};
+  field.type("rank", "Number and rank of the constraints.");
+  field("constraints", rank.constraints, "Number of constraints, the rows of the rigidity matrix.");
+  field("rank", rank.rank, "Number of independent constraints, the rank of the rigidity matrix.");
+  field("self_stress", rank.self_stress,
+        "Number of states of self-stress, which is the number of constraints minus the rank.")
+      .column({.name = "self_stress_" + name,
+               .group = group,
+               .latex = "s_" + letter,
+               .meaning = "Number of states of self-stress, " + condition});
+  field("floppy", rank.floppy, "Number of floppy motions, including the three translations. It is 6N minus the rank.")
+      .column({.name = "floppy_" + name,
+               .group = group,
+               .latex = "f_" + letter,
+               .meaning = "Number of floppy motions, including the three translations, " + condition,
+               .place = 1});
+  field("tolerance", rank.tolerance,
+        "A singular value of the rigidity matrix counts as zero if it is at most this value.");
+  field("least_kept", rank.least_kept,
+        "Smallest singular value that counts as nonzero. It is an upper limit, accurate to a few per cent.");
+  field("largest_dropped", rank.largest_dropped, "Largest singular value that counts as zero.");
 }
 
-void put_undecided(Json& state, const Count& count, std::string_view why) {
-  Json& json = state["rigidity"][std::string(count.rows)];
-  put_absent(json, "constraints", why);
-  put_absent(json, "rank", why);
-  put(state, count.self_stress, std::nullopt, why);
-  put(state, count.floppy, std::nullopt, why);
+struct ScaledCutoffs {
+  double factor = 0;
+  int constraints = 0, rank = 0, self_stress = 0, floppy = 0;
+};
+void describe(Fields& field, ScaledCutoffs& scaled) {
+  field("factor", scaled.factor, "Factor by which the fitted cut-offs are multiplied.")
+      .range({0, any_number.high, true})
+      .finite();
+  field("constraints", scaled.constraints, "Number of constraints, the rows of the rigidity matrix.");
+  field("rank", scaled.rank, "Number of independent constraints, the rank of the rigidity matrix.");
+  field("self_stress", scaled.self_stress,
+        "Number of states of self-stress, which is the number of constraints minus the rank.");
+  field("floppy", scaled.floppy,
+        "Number of floppy motions, including the three translations. It is 6N minus the rank.");
+}
+
+struct Ranks {
+  Rank normals, classes;
+  std::vector<ScaledCutoffs> scaled_cutoffs;
+  Rank trough;
+};
+void describe(Fields& field, Ranks& ranks) {
+  const std::string if_classes =
+      "if a face-face contact has three constraints, an edge-face contact two and a lower-order contact one.";
+  const auto add = [&](const std::string& key, Rank& rank, const std::string& letter, const std::string& condition,
+                       std::string_view meaning) {
+    field.nested(
+        key, [=, &rank](Fields& inner) { describe_rank(inner, rank, key, letter, condition); }, meaning);
+  };
+  add("normals", ranks.normals, "n", "if the only constraint of a contact is its normal.",
+      "Rigidity matrix in which the only constraint of a contact is its normal.");
+  add("classes", ranks.classes, "c", if_classes,
+      "Rigidity matrix in which a face-face contact has three constraints, an edge-face contact two and a lower-order "
+      "contact one.");
+  field("scaled_cutoffs", ranks.scaled_cutoffs,
+        "Results for the rigidity matrix of the field `classes` after both fitted cut-offs are multiplied by a factor. "
+        "The list is empty if a fit found no cut-off, or if the particles have several shapes.");
+  add("trough", ranks.trough, "t", if_classes + " The cut-offs are in the troughs of the densities of log10 θ.",
+      "Like `classes`, but the classes have their cut-offs in the troughs of the densities of log10 θ.");
+}
+
+struct State {
+  Ranks rigidity;
+};
+void describe(Fields& field, State& state) {
+  field("rigidity", state.rigidity, "Rank of the rigidity matrix, for several definitions of the constraints.");
+}
+
+Rank rank_of(const RigidityMatrix& matrix) {
+  const auto found = analyse_rigidity(matrix);
+  return {{found.constraints, ""}, {found.rank, ""}, {found.self_stress, ""}, {found.floppy, ""},
+          found.tolerance,         found.least_kept, found.largest_dropped};
+}
+
+Rank no_rank(std::string_view why) {
+  const Reasoned<int> none{std::nullopt, std::string(why)};
+  return {none, none, none, none, {}, {}, {}};
 }
 
 /// Both fitted cut-offs are multiplied by these factors, to show how the rank depends on them.
@@ -51,34 +102,27 @@ constexpr std::array cutoff_factors{.5, 2.0};
 
 /// Results with scaled cut-offs. Empty for mixtures of several shapes, because each pair of shapes has its own
 /// cut-offs.
-Json scaled_cutoffs(const Packing& packing, const ClassifiedContacts& classified) {
-  Json list = Json::array();
+std::vector<ScaledCutoffs> scaled_cutoffs(const Packing& packing, const ClassifiedContacts& classified) {
+  std::vector<ScaledCutoffs> list;
   const ContactAnalysis& analysis = classified.analysis;
-  if (!analysis.pairs.empty()) return list;
+  if (!analysis.pairs.empty() || undecided(analysis)) return list;
   for (const double factor : cutoff_factors) {
     const auto classes =
         classify(classified.alignments, factor * analysis.face_face.cutoff, factor * analysis.edge_face.cutoff);
     const auto rigidity =
         analyse_rigidity(class_constraints(packing, classified.contacts, classified.alignments, classes));
-    list.push_back({{"factor", factor},
-                    {"constraints", rigidity.constraints},
-                    {"rank", rigidity.rank},
-                    {"self_stress", rigidity.self_stress},
-                    {"floppy", rigidity.floppy}});
+    list.push_back({factor, rigidity.constraints, rigidity.rank, rigidity.self_stress, rigidity.floppy});
   }
   return list;
 }
 
-/// The constraints of the classes by troughs.
-void put_by_trough(Json& state, const Packing& packing, const ClassifiedContacts& classified) {
+/// The rank for the classes by troughs.
+Rank rank_by_trough(const Packing& packing, const ClassifiedContacts& classified) {
   const TroughCutoffs cutoffs = trough_cutoffs(histogram_of(classified));
-  if (const auto why = undecided(cutoffs)) {
-    put_undecided(state, by_trough, *why);
-    return;
-  }
+  if (const auto why = undecided(cutoffs)) return no_rank(*why);
   const auto classes = classify(classified.alignments, angle_bin_edge(cutoffs.face_face.cutoff),
                                 angle_bin_edge(cutoffs.edge_face.cutoff));
-  put_rigidity(state, by_trough, class_constraints(packing, classified.contacts, classified.alignments, classes));
+  return rank_of(class_constraints(packing, classified.contacts, classified.alignments, classes));
 }
 
 Measurement measure_rigidity(const JamResult& jam, const MeasureOptions&) {
@@ -86,24 +130,18 @@ Measurement measure_rigidity(const JamResult& jam, const MeasureOptions&) {
   PackingEnergy energy;
   for (const Packing& packing : jam.states) {
     const auto classified = classified_contacts(packing, energy);
-    Json state;
-    put_rigidity(state, normals, normal_constraints(packing, classified.contacts));
-    if (const auto why = undecided(classified.analysis)) {
-      put_undecided(state, by_class, *why);
-      state["rigidity"]["scaled_cutoffs"] = Json::array();
-    } else {
-      put_rigidity(state, by_class,
-                   class_constraints(packing, classified.contacts, classified.alignments, classified.analysis.classes));
-      state["rigidity"]["scaled_cutoffs"] = scaled_cutoffs(packing, classified);
-    }
-    put_by_trough(state, packing, classified);
-    measurement.states.push_back(std::move(state));
+    const auto& [contacts, alignments, analysis] = classified;
+    const auto why = undecided(analysis);
+    State state{{rank_of(normal_constraints(packing, contacts)),
+                 why ? no_rank(*why) : rank_of(class_constraints(packing, contacts, alignments, analysis.classes)),
+                 scaled_cutoffs(packing, classified), rank_by_trough(packing, classified)}};
+    measurement.states.push_back(written(state));
   }
   return measurement;
 }
 
 }  // namespace
 
-const MeasureDefinition measures::rigidity{.quantities = quantities, .measure = measure_rigidity};
+const MeasureDefinition measures::rigidity{.state = part_of<State>(), .measure = measure_rigidity};
 
 }  // namespace isojam

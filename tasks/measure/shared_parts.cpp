@@ -26,26 +26,25 @@ std::optional<std::string_view> undecided(const ContactAnalysis& analysis) {
 }
 
 void Histogram::add(double value) {
-  const double bin = value > 0 ? std::floor(nearest::log10(value) * per_decade) - least_ : -1;
+  const double bin = value > 0 ? std::floor(nearest::log10(value) * per_decade) - least : -1;
   if (bin < 0) {
-    ++below_;
+    ++below;
   } else {
-    ++counts_[std::min(static_cast<std::size_t>(bin), counts_.size() - 1)];
+    ++counts[std::min(static_cast<std::size_t>(bin), counts.size() - 1)];
   }
 }
 
-Json Histogram::record() const {
-  Json json;
-  json["below"] = below_;
-  json["counts"] = counts_;
-  return json;
+std::vector<double> Histogram::edges() const {
+  std::vector<double> list;
+  for (std::size_t k = 0; k <= counts.size(); ++k)
+    list.push_back(static_cast<double>(least + static_cast<int>(k)) / per_decade);
+  return list;
 }
 
-Json Histogram::edges() const {
-  Json list = Json::array();
-  for (std::size_t k = 0; k <= counts_.size(); ++k)
-    list.push_back(static_cast<double>(least_ + static_cast<int>(k)) / per_decade);
-  return list;
+void describe(Fields& field, Histogram& bins) {
+  field.type("bins", "Histogram of gaps, of forces or of angles.");
+  field("below", bins.below, "Number of values below the first bin.");
+  field("counts", bins.counts, "Number of values in each bin. The last bin also contains larger values.");
 }
 
 double to_digits(double x, int digits) { return parsed(fmt::format("{:.{}e}", x, digits - 1)).get<double>(); }
@@ -58,8 +57,7 @@ std::optional<std::string_view> not_jammed(const Packing& packing, PackingEnergy
   return std::nullopt;
 }
 
-void put_scaling(Json& replicate, const Quantity& exponent, const JamResult& jam,
-                 const std::vector<std::optional<double>>& y) {
+Scaling scaling_of(const JamResult& jam, const std::vector<std::optional<double>>& y) {
   std::vector<double> distances, values;
   for (std::size_t k = 0; k < jam.states.size() && jam.phi_j; ++k) {
     const double distance = jam.states[k].density() - jam.phi_j->density;
@@ -68,12 +66,28 @@ void put_scaling(Json& replicate, const Quantity& exponent, const JamResult& jam
     values.push_back(*y[k]);
   }
   const auto law = fit_power_law(distances, values);
-  const bool has_interval = law && law->points > 2;
-  put(replicate, exponent, law ? std::optional(law->exponent) : std::nullopt, "fewer than two states");
-  Json& json = place_of(replicate, exponent).object;
-  put_optional(json, "ci95_half_width", has_interval ? std::optional(law->ci95_half_width) : std::nullopt,
-               "fewer than three states");
-  json["points"] = law ? law->points : 0;
+  if (!law) return {{{}, "fewer than two states"}, {{}, "fewer than three states"}};
+  return {{law->exponent, ""}, given(law->points > 2, law->ci95_half_width, "fewer than three states"), law->points};
+}
+
+void add_scaling(Fields& field, const std::string& key, Scaling& law, const std::string& name, std::string_view latex,
+                 std::string_view symbol, std::string_view meaning) {
+  const Column exponent{
+      .name = "x_" + name,
+      .group = {"exponents", "Exponents of power laws in the distance to jamming Δφ."},
+      .latex = fmt::format("x_{}", latex),
+      .meaning = fmt::format("Exponent x of {} ∝ Δφ^x, fitted to the states with Δφ ≤ 0.02.", symbol)};
+  const auto describe_law = [&law, exponent](Fields& inner) {
+    inner.type("scaling", "Power law y ∝ Δφ^x, fitted to the states with Δφ ≤ 0.02.");
+    inner("exponent", law.exponent,
+          "Exponent x: the slope of ln y as a function of ln Δφ in a least-squares fit; null with fewer than two "
+          "states.")
+        .column(exponent);
+    inner("ci95_half_width", law.ci95_half_width,
+          "Half width of the 95 % confidence interval of x in the fit (Student t); null with fewer than three states.");
+    inner("points", law.points, "Number of fitted states.");
+  };
+  field.nested(key, describe_law, meaning);
 }
 
 }  // namespace isojam

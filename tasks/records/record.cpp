@@ -78,18 +78,17 @@ double worst_residual(const JamResult& jam) {
 void put_jamming_point(Json& record, const JamResult& jam) {
   if (jam.status == JamStatus::zero_pressure) {
     const std::size_t state = *nearest_state(jam);
-    put(record, phi_0_quantity, jam.states[state].density());
-    put(record, phi_j_quantity, std::nullopt, at_zero_pressure);
-    Json& json = place_of(record, phi_j_quantity).object;
-    for (const auto* key : {"standard_error", "ci95_half_width", "single_state", "exponent"})
+    record["phi_0"] = jam.states[state].density();
+    Json& json = record["phi_j"];
+    for (const auto* key : {"phi_j", "standard_error", "ci95_half_width", "single_state", "exponent"})
       put_absent(json, key, at_zero_pressure);
     put_number(json, "residual", jam.path[static_cast<std::size_t>(jam.state_steps[state])].summary.residual);
     json["states"] = Json::array();
     return;
   }
   const auto& point = *jam.phi_j;
-  put(record, phi_j_quantity, point.density);
-  Json& json = place_of(record, phi_j_quantity).object;
+  Json& json = record["phi_j"];
+  put_number(json, "phi_j", point.density);
   const auto put_fitted = [&](const std::string& key, double value, std::string_view reason) {
     if (value != 0) {
       put_number(json, key, value);
@@ -181,7 +180,7 @@ Json make_record(const Outcome& outcome) {
       json.update(measurement.replicate);
       if (measurement.nearest_only) json["nearest_only"].push_back(to_string(what));
     }
-    put_rearrangements(json, jam.path);
+    json.update(written(rearrangement_part(jam.path)));
     put_cycles(json, jam.cycles);
   }
   json["states"] = Json::array();

@@ -51,8 +51,8 @@ void put_state_estimates(Json& json, const Estimates& estimates) {
 Json to_json(const PooledTrough& trough) {
   Json json;
   json["replicates"] = trough.replicates;
-  json["face_face"] = trough_record(trough.cutoffs.face_face, trough.particles);
-  json["edge_face"] = trough_record(trough.cutoffs.edge_face, trough.particles);
+  json["face_face"] = written(trough_record(trough.cutoffs.face_face, trough.particles));
+  json["edge_face"] = written(trough_record(trough.cutoffs.edge_face, trough.particles));
   for (std::size_t i = 0; i < PooledTrough::names.size(); ++i) {
     auto name = std::string(PooledTrough::names[i]);
     json[name.erase(name.find("_pooled"), 7)] = to_json(trough.estimates[i]);

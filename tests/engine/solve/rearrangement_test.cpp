@@ -45,7 +45,7 @@ TEST(Rearrangements, AreCountedInStepsBetweenEquilibria) {
                                   followed(0.1, 2, 0, 1.5)};
   const auto found = rearrangements(path);
   EXPECT_EQ(found.steps, 5);
-  EXPECT_EQ(found.is_rearranged, 3);
+  EXPECT_EQ(found.count, 3);
   EXPECT_EQ(found.particles_moved, 3);
   EXPECT_EQ(found.contacts_lost, 4.5);
   EXPECT_EQ(found.contacts_gained, 1.5);
@@ -56,7 +56,7 @@ TEST(Rearrangements, HaveNoMeansIfThereAreNone) {
        {std::vector<JamStep>{}, {followed(0.9, 5, 1, 3)}, {without_state(JamStage::expansion, true)}}) {
     const auto found = rearrangements(path);
     EXPECT_EQ(found.steps, static_cast<int>(path.size()));
-    EXPECT_EQ(found.is_rearranged, !path.empty() && path[0].lost ? 1 : 0);
+    EXPECT_EQ(found.count, !path.empty() && path[0].lost ? 1 : 0);
     EXPECT_FALSE(found.particles_moved);
     EXPECT_FALSE(found.contacts_lost);
     EXPECT_FALSE(found.contacts_gained);
