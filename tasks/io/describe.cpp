@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <deque>
 
 namespace isojam {
 namespace {
@@ -158,6 +159,18 @@ void read_field(const JsonPlace& object, const FieldEntry& field) {
   read_value(place, field, field.member);
 }
 
+/// Gives a list as many elements as the object has keys for them. Their numbers begin with 1 and have no gap.
+std::size_t sized_by_keys(const JsonPlace& object, const Many& list, const std::string& key) {
+  std::size_t count = 0;
+  const auto has = [&](std::string name) {
+    while (name.find('*') != std::string::npos) name = numbered(name, 1);
+    return object.has(name);
+  };
+  while (has(numbered(key, count + 1))) ++count;
+  list.resize(count);
+  return count;
+}
+
 bool can_be_absent(const FieldEntry& field) {
   const auto* const maybe = std::get_if<Maybe>(&field.member);
   return field.presence != Presence::always || (maybe && !maybe->reason);
@@ -190,26 +203,13 @@ void read_into(const JsonPlace& place, const Fields& fields, Missing missing) {
   for (const auto& removed : fields.removed)
     place.read_if_any(removed.first,
                       [&](const JsonPlace& value) { value.refuse_with_remedy("the key was removed", removed.second); });
-  std::vector<FieldEntry> numbered_fields;
-  // The numbers of a list begin with 1 and have no gap.
-  const auto size = [&](const Many& list, const std::string& key) {
-    std::size_t count = 0;
-    const auto is_there = [&](std::string name) {
-      while (name.find('*') != std::string::npos) name = numbered(name, 1);
-      return place.has(name);
-    };
-    while (is_there(numbered(key, count + 1))) ++count;
-    list.resize(count);
-    return count;
-  };
-  for (const auto& field : fields.list) {
-    if (field.key.find('*') != std::string::npos)
-      for_each_numbered(field, size, [&](const FieldEntry& one) { numbered_fields.push_back(one); });
-  }
+  std::deque<FieldEntry> numbered_fields;
   std::vector<const FieldEntry*> all;
+  const auto size = [&](const Many& list, const std::string& key) { return sized_by_keys(place, list, key); };
   for (const auto& field : fields.list)
-    if (field.key.find('*') == std::string::npos) all.push_back(&field);
-  for (const auto& field : numbered_fields) all.push_back(&field);
+    for_each_numbered(field, size, [&](const FieldEntry& one) {
+      all.push_back(&one == &field ? &field : &numbered_fields.emplace_back(one));
+    });
   std::vector<std::string> reasons;
   std::vector<std::string_view> known;
   for (const auto* field : all) {

@@ -35,6 +35,7 @@ namespace isojam {
 
 inline constexpr Range any_number{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
 inline constexpr Range not_negative{0, std::numeric_limits<double>::max()};
+inline constexpr Range positive{0, std::numeric_limits<double>::max(), true};
 /// Counts that a double represents exactly.
 inline constexpr Range count_range{0, 9007199254740992};
 
@@ -64,14 +65,22 @@ struct Column {
   std::string name = {};     ///< name in tables: the symbol of the paper, if there is one
   QuantityGroup group = {};  ///< the table of main_group is the first one
   std::string latex = {};
+  std::string meaning = {};  ///< among all quantities, if that of the field is clear only inside its object
+  /// Quantities of a group are sorted by this number; those with the same number have the order of the file.
+  int place = 0;
   bool proportion = false;  ///< true if each value is 0 or 1, so that the mean is a proportion
   /// smallest number of kinds of particles for which a packing has the quantity
   int kinds = 1;
   bool cohesive = false;  ///< true if only packings with cohesion at zero pressure have the quantity
-  /// Meaning among all quantities, if that of the field is clear only inside its object.
-  std::string meaning = {};
-  /// Quantities of a group are sorted by this number; those with the same number have the order of the file.
-  int place = 0;
+};
+bool proportion = false;  ///< true if each value is 0 or 1, so that the mean is a proportion
+/// smallest number of kinds of particles for which a packing has the quantity
+int kinds = 1;
+bool cohesive = false;  ///< true if only packings with cohesion at zero pressure have the quantity
+/// Meaning among all quantities, if that of the field is clear only inside its object.
+std::string meaning = {};
+/// Quantities of a group are sorted by this number; those with the same number have the order of the file.
+int place = 0;
 };
 
 class Fields;

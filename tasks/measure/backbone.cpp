@@ -23,12 +23,10 @@ void describe_rank(Fields& field, MissingRank& rank, const std::string& name, co
   field("missing", rank.missing,
         "Missing rank: 6n − 3 minus the rank, where n is the number of particles in the backbone.")
       .range({-3, count_range.high})
-      .column({.name = name,
-               .group = group,
-               .latex = latex,
-               .meaning = "Missing rank of the backbone, 6n − 3 − rank, if " + condition +
-                          "; n is the number of particles of the backbone.",
-               .place = 1});
+      .column({name, group, latex,
+               "Missing rank of the backbone, 6n − 3 − rank, if " + condition +
+                   "; n is the number of particles of the backbone.",
+               1});
   field("constraints", rank.constraints, "Number of constraints, the rows of the rigidity matrix.");
   field("rank", rank.rank, "Number of independent constraints, the rank of the rigidity matrix.");
   field("least_kept", rank.least_kept,

@@ -30,7 +30,7 @@ void describe(Fields& field, Clusters& clusters) {
         "images.");
   field("percolates", clusters.percolates, "1 if a cluster is connected to its own periodic image, 0 if not.")
       .range({0, 1})
-      .column({.name = "percolates", .group = group, .latex = "P", .proportion = true, .place = 1});
+      .column({.name = "percolates", .group = group, .latex = "P", .place = 1, .proportion = true});
   field("spans", clusters.spans,
         "1 if the extent of a cluster is at least L, or if a cluster is connected to its own periodic image; 0 if not.")
       .range({0, 1});

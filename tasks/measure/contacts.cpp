@@ -36,6 +36,8 @@ KnownNumbers known_numbers(const ContactNumbers& n, const ContactAnalysis& analy
           value(n.C)};
 }
 
+}  // namespace
+
 Contacts contact_record(const ContactAnalysis& analysis) {
   Contacts record;
   record.numbers = known_numbers(analysis.numbers, analysis);
@@ -52,7 +54,6 @@ Contacts contact_record(const ContactAnalysis& analysis) {
   return record;
 }
 
-/// Flags that the nearest state causes: classes_undecided or classes_doubtful, and crystalline.
 std::vector<std::string> contact_flags(const ContactAnalysis& nearest) {
   std::vector<std::string> flags;
   if (undecided(nearest)) {
@@ -63,6 +64,8 @@ std::vector<std::string> contact_flags(const ContactAnalysis& nearest) {
   if (nearest.Q6 > crystalline_q6) flags.emplace_back(to_string(Flag::crystalline));
   return flags;
 }
+
+namespace {
 
 /// Angles of ideal random contacts between a vertex and a face, for a packing of any shapes. Each shape has the same
 /// share of contact ends as in the packing. Either particle of a contact may be the one with the vertex.

@@ -21,10 +21,8 @@ struct Negative {
 void describe(Fields& field, Negative& modes) {
   field("share", modes.share, "Number of negative modes, divided by 6N.")
       .range({0, 1})
-      .column({.name = "unstable_exact",
-               .group = group,
-               .latex = "n_-/6N",
-               .meaning = "Number of negative modes of the analytic dynamical matrix, divided by 6N."});
+      .column({"unstable_exact", group, "n_-/6N",
+               "Number of negative modes of the analytic dynamical matrix, divided by 6N."});
   field("negative", modes.negative, "Number of negative modes.").range(not_negative);
 }
 
@@ -37,16 +35,14 @@ struct Step {
 void describe_step(Fields& field, Step& step, const std::string& exponent, const std::string& power) {
   field.type("difference_count", "Negative modes of a dynamical matrix from central differences.");
   field("h", step.h, "Step h of the central differences, of x and of R·θ, in units of V_p^(1/3).")
-      .range({0, any_number.high, true})
+      .range(positive)
       .finite();
   field("share", step.modes.share, "Number of negative modes, divided by 6N.")
       .range({0, 1})
-      .column({.name = "unstable_h" + exponent,
-               .group = group,
-               .latex = "n_-/6N,\\,h=10^{-" + exponent + "}",
-               .meaning = "Number of negative modes of the dynamical matrix from central differences with the step h "
-                          "= " +
-                          power + " V_p^(1/3), divided by 6N."});
+      .column({"unstable_h" + exponent, group, "n_-/6N,\\,h=10^{-" + exponent + "}",
+               "Number of negative modes of the dynamical matrix from central differences with the step h "
+               "= " +
+                   power + " V_p^(1/3), divided by 6N."});
   field("negative", step.modes.negative, "Number of negative modes.").range(not_negative);
   field("least", step.least, "Smallest eigenvalue, in units of (Y/ρ)·V_p^(-2/3).");
 }

@@ -82,16 +82,9 @@ void describe_ends(Fields& field, Modes& modes) {
   const std::string ratio =
       " The key `modes` of the manifest sets their number, by default 50. The ratio is 1 if all particles have the "
       "same amplitude, and 1/N if only one particle moves.";
-  const Column p_l{.name = "p_l",
-                   .group = group,
-                   .latex = "p_l",
-                   .meaning = "Mean participation ratio of the lowest modes, without the three translations." + ratio,
-                   .place = 2};
-  const Column p_h{.name = "p_h",
-                   .group = group,
-                   .latex = "p_h",
-                   .meaning = "Mean participation ratio of the highest modes." + ratio,
-                   .place = 2};
+  const Column p_l{"p_l", group, "p_l",
+                   "Mean participation ratio of the lowest modes, without the three translations." + ratio, 2};
+  const Column p_h{"p_h", group, "p_h", "Mean participation ratio of the highest modes." + ratio, 2};
   field.nested(
       "lowest", [&modes, p_l](Fields& inner) { describe_end(inner, modes.lowest, p_l); },
       "The lowest modes, without the three translations. Their number is `spec.modes`.");
@@ -106,9 +99,8 @@ void describe(Fields& field, Modes& modes) {
         "modes and no negative mode. `unstable`: At least one negative mode. `undetermined`: The modes could not be "
         "counted.");
   field("zero", modes.zero, "Number of zero modes, including the three translations.")
-      .column({.name = "zero_modes", .group = group, .latex = "n_0", .place = 1});
-  field("negative", modes.negative, "Number of negative modes.")
-      .column({.name = "negative_modes", .group = group, .latex = "n_-", .place = 1});
+      .column({"zero_modes", group, "n_0", "", 1});
+  field("negative", modes.negative, "Number of negative modes.").column({"negative_modes", group, "n_-", "", 1});
   field("positive", modes.positive, "Number of modes that are neither zero modes nor negative modes.");
   field("zero_tolerance", modes.zero_tolerance,
         "An eigenvalue λ counts as zero if |λ| is at most this value, in units of (Y/ρ)·V_p^(-2/3).");
@@ -127,11 +119,11 @@ void describe(Fields& field, Modes& modes) {
   field("face_face_amplitude", modes.face_face_amplitude,
         "Share of the squared amplitude that belongs to particles with a face-face contact, averaged over the highest "
         "modes; null if the fit of θ_ff or of θ_ef found no cut-off.")
-      .column({.name = "face_face_amplitude", .group = group, .latex = "a_{ff}", .place = 2});
+      .column({"face_face_amplitude", group, "a_{ff}", "", 2});
   field("face_face_particles", modes.face_face_particles,
         "Number of particles that have a face-face contact, divided by N; null if the fit of θ_ff or of θ_ef found no "
         "cut-off.")
-      .column({.name = "face_face_particles", .group = group, .latex = "n_{ff}", .place = 2});
+      .column({"face_face_particles", group, "n_{ff}", "", 2});
   field("density_of_states", modes.density_of_states,
         "Density of states as a function of log10 ω, from all modes. The field is present only in the state nearest "
         "jamming, and only if N is at most 150.");

@@ -38,7 +38,7 @@ struct Method {
   std::string name, cutoff;
 
   Column column(const std::string& quantity, const std::string& latex, const std::string& meaning) const {
-    return {.name = quantity, .group = group, .latex = latex, .meaning = meaning};
+    return {quantity, group, latex, meaning};
   }
 };
 

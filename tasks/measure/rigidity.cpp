@@ -21,16 +21,10 @@ void describe_rank(Fields& field, Rank& rank, const std::string& name, const std
   field("rank", rank.rank, "Number of independent constraints, the rank of the rigidity matrix.");
   field("self_stress", rank.self_stress,
         "Number of states of self-stress, which is the number of constraints minus the rank.")
-      .column({.name = "self_stress_" + name,
-               .group = group,
-               .latex = "s_" + letter,
-               .meaning = "Number of states of self-stress, " + condition});
+      .column({"self_stress_" + name, group, "s_" + letter, "Number of states of self-stress, " + condition});
   field("floppy", rank.floppy, "Number of floppy motions, including the three translations. It is 6N minus the rank.")
-      .column({.name = "floppy_" + name,
-               .group = group,
-               .latex = "f_" + letter,
-               .meaning = "Number of floppy motions, including the three translations, " + condition,
-               .place = 1});
+      .column({"floppy_" + name, group, "f_" + letter,
+               "Number of floppy motions, including the three translations, " + condition, 1});
   field("tolerance", rank.tolerance,
         "A singular value of the rigidity matrix counts as zero if it is at most this value.");
   field("least_kept", rank.least_kept,
@@ -43,9 +37,7 @@ struct ScaledCutoffs {
   int constraints = 0, rank = 0, self_stress = 0, floppy = 0;
 };
 void describe(Fields& field, ScaledCutoffs& scaled) {
-  field("factor", scaled.factor, "Factor by which the fitted cut-offs are multiplied.")
-      .range({0, any_number.high, true})
-      .finite();
+  field("factor", scaled.factor, "Factor by which the fitted cut-offs are multiplied.").range(positive).finite();
   field("constraints", scaled.constraints, "Number of constraints, the rows of the rigidity matrix.");
   field("rank", scaled.rank, "Number of independent constraints, the rank of the rigidity matrix.");
   field("self_stress", scaled.self_stress,

@@ -72,11 +72,10 @@ Scaling scaling_of(const JamResult& jam, const std::vector<std::optional<double>
 
 void add_scaling(Fields& field, const std::string& key, Scaling& law, const std::string& name, std::string_view latex,
                  std::string_view symbol, std::string_view meaning) {
-  const Column exponent{
-      .name = "x_" + name,
-      .group = {"exponents", "Exponents of power laws in the distance to jamming Δφ."},
-      .latex = fmt::format("x_{}", latex),
-      .meaning = fmt::format("Exponent x of {} ∝ Δφ^x, fitted to the states with Δφ ≤ 0.02.", symbol)};
+  const Column exponent{"x_" + name,
+                        {"exponents", "Exponents of power laws in the distance to jamming Δφ."},
+                        fmt::format("x_{}", latex),
+                        fmt::format("Exponent x of {} ∝ Δφ^x, fitted to the states with Δφ ≤ 0.02.", symbol)};
   const auto describe_law = [&law, exponent](Fields& inner) {
     inner.type("scaling", "Power law y ∝ Δφ^x, fitted to the states with Δφ ≤ 0.02.");
     inner("exponent", law.exponent,

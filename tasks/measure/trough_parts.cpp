@@ -49,7 +49,6 @@ void add_cells(AngleHistogram& histogram, const std::vector<long>& cells, const 
 
 void describe(Fields& field, TroughRecord& trough) {
   field.type("trough", "Trough in the density of log10 θ, between a population of small angles and the other angles.");
-  constexpr Range positive{0, any_number.high, true};
   field("verdict", trough.verdict,
         "Result of the search. `found`: There is a trough. `undecided`: There is no trough, or it is not deeper than "
         "the noise. `not_called`: No search was made.");
@@ -122,7 +121,7 @@ void describe(Fields& field, AngleCounts& counts) {
 }
 
 void describe(Fields& field, AngleBins& angles) {
-  field("width", angles.width, "Width of the bins, in decades.").range({0, any_number.high, true}).finite();
+  field("width", angles.width, "Width of the bins, in decades.").range(positive).finite();
   field("face_face", angles.face_face, "Numbers of contacts by θ_ff.");
   field("edge_face", angles.edge_face, "Numbers of contacts by θ_ef.");
   field("face_face_end", angles.face_face_end,

@@ -44,6 +44,11 @@ struct Sample {
   std::array<int, 2> pair{};
   std::vector<std::array<int, 2>> pairs;
   double step = 0.5;
+  std::optional<double> limit;
+  std::optional<Reasoned<>> width;
+  std::vector<std::optional<double>> means;
+  std::vector<Bins> numbered;
+  std::vector<std::vector<double>> matrix;
 };
 void describe(Fields& field, Sample& sample) {
   field("length", sample.length, "Length.").unit("V_p^(1/3)").column({"l", group, "\\ell"});
@@ -59,6 +64,11 @@ void describe(Fields& field, Sample& sample) {
   field("pair", sample.pair, "Two numbers.");
   field("pairs", sample.pairs, "Pairs.");
   field("step", sample.step, "Step.").optional().finite();
+  field("limit", sample.limit, "Limit.");
+  field("width", sample.width, "Width.");
+  field("means", sample.means, "Means.");
+  field("bins_*", sample.numbered, "");
+  field("M_*_*", sample.matrix, "Matrix.").range(not_negative).finite().column({"M_**", group, "M_{**}"});
   field.renamed = {{"hue", "colour"}};
 }
 
@@ -83,9 +93,16 @@ class Samples {
     for (int k = integer(3); k > 0; --k) sample.list.push_back(bins());
     sample.pair = {integer(9), integer(9)};
     for (int k = integer(3); k > 0; --k) sample.pairs.push_back({k, integer(9)});
+    if (coin()) sample.limit = number();
+    if (coin()) sample.width = reasoned(coin() ? std::optional(number()) : std::nullopt, "none");
+    for (int k = integer(3); k > 0; --k) sample.means.push_back(coin() ? std::optional(0.5) : std::nullopt);
+    for (int k = integer(most_numbered); k > 0; --k) sample.numbered.push_back(bins());
+    sample.matrix.assign(static_cast<std::size_t>(integer(most_numbered)),
+                         std::vector(static_cast<std::size_t>(most_numbered), 0.25));
     return sample;
   }
   bool coin() { return integer(1) == 1; }
+  int most_numbered = 3;
   int integer(int most) { return std::uniform_int_distribution(0, most)(random_); }
 
  private:
@@ -163,6 +180,8 @@ void mutate(Json& json, Samples& samples) {
 TEST(Describe, SchemaAcceptsWhatTheReaderAccepts) {
   const auto schema = schema_of(fields_of<Sample>(), "sample");
   Samples samples;
+  // A schema cannot say that the numbers in keys have no gaps.
+  samples.most_numbered = 1;
   int accepted = 0, refused = 0, disagree = 0;
   for (int k = 0; k < 3000; ++k) {
     auto json = written(samples.next());
@@ -196,6 +215,8 @@ TEST(Describe, SectionsAndColumnsHaveEveryField) {
   std::cout << names;
   EXPECT_NE(names.find("l /length\n"), std::string::npos);
   EXPECT_NE(names.find("bins.below /bins/below\n"), std::string::npos);
+  EXPECT_NE(names.find("bins_4.below /bins_4/below\n"), std::string::npos);
+  EXPECT_NE(names.find("M_43 /M_4_3\n"), std::string::npos);
   EXPECT_EQ(names.find("counts"), std::string::npos);
 }
 

@@ -34,7 +34,9 @@ Packing packing_of(const std::vector<int>& kinds, std::uint64_t seed = 7) {
 }
 
 Json contacts_of(const Packing& packing) {
-  return measure(Measure::contacts, result_of(packing)).states.at(0).at("contacts");
+  const auto state = measure(Measure::contacts, result_of(packing)).states.at(0);
+  EXPECT_NO_THROW(definition_of(Measure::contacts).state.check({state, "state"}));
+  return state.at("contacts");
 }
 
 std::vector<int> thirds(int n) {
@@ -90,8 +92,8 @@ TEST(DistributionsMeasure, MixingDistinguishesRandomAndSeparatedKinds) {
 TEST(DistributionsMeasure, HistogramCountsSmallAndLargeValues) {
   Histogram zeros(-20, 21);
   for (const double angle : {0.0, 1e-5, 1.0, 5.0}) zeros.add(angle);
-  EXPECT_EQ(zeros.record().at("below"), 2);
-  EXPECT_EQ(zeros.record().at("counts").back(), 2);
+  EXPECT_EQ(zeros.below, 2);
+  EXPECT_EQ(zeros.counts.back(), 2);
 }
 
 TEST(DistributionsMeasure, ForcesAreInUnitsOfTheirMean) {

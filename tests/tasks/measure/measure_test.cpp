@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <iostream>
 
 #include "engine/analysis/alignment/critical_angles.hpp"
 #include "engine/rigidity/rigidity.hpp"
@@ -67,6 +68,55 @@ void expect_recorded(const Json& record, const Outcome& outcome) {
     EXPECT_EQ(found.replicate.dump(), measured.replicate.dump()) << to_string(what);
     EXPECT_EQ(found.flags, measured.flags) << to_string(what);
   }
+}
+
+/// The parts of the record of each measure, with their fields.
+std::vector<std::pair<MeasurePart, Json>> parts_of(const Outcome& outcome) {
+  std::vector<std::pair<MeasurePart, Json>> parts;
+  for (const auto& [what, measured] : outcome.measured) {
+    const auto& definition = definition_of(what);
+    for (const auto& state : measured.states) parts.emplace_back(definition.state, state);
+    parts.emplace_back(definition.replicate, measured.replicate);
+  }
+  return parts;
+}
+
+std::string error_of(const MeasurePart& part, const Json& json) {
+  try {
+    if (part.check) part.check({json, "record"});
+    return part.check || json.empty() ? "" : "nothing is described";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(Measure, DescribesWhatItWritesAndNothingElse) {
+  const auto parts = parts_of(measured_outcome(jammed()));
+  for (const auto& [part, json] : parts) EXPECT_EQ(error_of(part, json), "") << json;
+  RandomStream random{5};
+  const auto any = [&](std::size_t size) {
+    return std::min(static_cast<std::size_t>(random.uniform() * size), size - 1);
+  };
+  int refused = 0;
+  for (int k = 0; k < 400; ++k) {
+    auto [part, json] = parts[any(parts.size())];
+    std::vector<Json*> places;
+    for (auto& value : json) places.push_back(&value);
+    if (places.empty()) continue;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      for (auto& value : *places[i])
+        if (places[i]->is_structured()) places.push_back(&value);
+    Json& place = *places[any(places.size())];
+    if (place.is_object()) {
+      place["new"] = 1;
+    } else {
+      place = {{"new", 1}};
+    }
+    EXPECT_NE(error_of(part, json), "") << json;
+    ++refused;
+  }
+  std::cout << parts.size() << " parts accepted, " << refused << " changed ones refused\n";
+  EXPECT_GT(refused, 200);
 }
 
 TEST(Measure, FillsTheRecordOfAJammedPacking) {
@@ -282,6 +332,7 @@ TEST(Measure, DegenerateStatesHaveValuesOrReasons) {
     outcome.failure = Failure{"jam", "made up"};
     const auto record = test::record_on_disk(outcome);
     SCOPED_TRACE(name);
+    for (const auto& [part, json] : parts_of(outcome)) EXPECT_EQ(error_of(part, json), "");
     expect_recorded(record, outcome);
     EXPECT_EQ(violations("replicate", record), "") << name;
     EXPECT_EQ(unexplained(record), "") << name;

@@ -49,9 +49,10 @@ TEST(Restored, GivesTheSameRecordAgain) {
 /// First keys of the places of a measure's quantities, in their order.
 std::vector<std::string> members(Measure what, Quantity::Of of) {
   std::vector<std::string> names;
-  for (const auto& quantity : definition_of(what).quantities) {
-    const auto name = std::string(quantity.pointer.substr(1, quantity.pointer.find('/', 1) - 1));
-    if (quantity.of == of && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  for (const auto& quantity : all_quantities()) {
+    const auto name = quantity.pointer.substr(1, quantity.pointer.find('/', 1) - 1);
+    if (quantity.measure == what && quantity.of == of && std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
   }
   return names;
 }

@@ -51,7 +51,7 @@ std::vector<Json> states_with_angles() {
       contacts.push_back({.face_face = k < 100 ? angle(-8, -5) : angle(-0.7, 0),
                           .edge_face = k < 150 ? angle(-9, -6) : angle(-1.5, -0.3)});
     }
-    put_trough(state, angle_histogram(contacts, 0.3, 0.25), 64);
+    test::set_angles(state, angle_histogram(contacts, 0.3, 0.25), 64);
   }
   return states;
 }

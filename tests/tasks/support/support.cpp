@@ -154,18 +154,28 @@ ContactAnalysis made_up_contacts(double z) {
   return analysis;
 }
 
-/// The part of the measure `contacts`, without the numbers by troughs.
-Json made_up_record(const ContactAnalysis& analysis) {
-  Json record = contact_record(analysis);
-  for (const auto* key : {"Z_ff", "Z_ef", "Z_l", "C", "C_low", "C_high"})
-    put_absent(record["contacts"]["trough"], key, "made up");
-  return record;
+namespace {
+
+/// The state has no angles.
+Json state_of(const ContactAnalysis& analysis) {
+  ContactsOfState state{contact_record(analysis)};
+  state.contacts.trough = troughs_of({}, 1);
+  Json json = written(state);
+  json.at("contacts").erase("angle_bins");
+  return json;
 }
+
+}  // namespace
 
 void set_nearest_contacts(Outcome& outcome, const ContactAnalysis& analysis) {
   auto& measured = outcome.measured.at(Measure::contacts);
-  measured.states.back() = made_up_record(analysis);
+  measured.states.back() = state_of(analysis);
   measured.flags = contact_flags(analysis);
+}
+
+void set_angles(Json& state, const AngleHistogram& histogram, int particles) {
+  state["contacts"]["angle_bins"] = written(bins_of(histogram));
+  state["contacts"]["trough"] = written(troughs_of(histogram, particles));
 }
 
 Outcome made_up_outcome(const ReplicateSpec& spec) {
@@ -195,7 +205,7 @@ Outcome made_up_outcome(const ReplicateSpec& spec) {
     jam.path.push_back(step);
     jam.states.push_back(strained_to(start, step.density));
     for (const auto what : {Measure::order, Measure::clusters}) outcome.measured[what].states.push_back(Json::object());
-    outcome.measured[Measure::contacts].states.push_back(made_up_record(made_up_contacts(9 + random.uniform())));
+    outcome.measured[Measure::contacts].states.push_back(state_of(made_up_contacts(9 + random.uniform())));
   }
   jam.phi_j = point;
   jam.status = JamStatus::jammed;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tasks/measure/shared_parts.hpp"
+#include "tasks/measure/contact_fields.hpp"
 #include "tasks/records/replicate.hpp"
 
 namespace isojam::test {
@@ -81,6 +81,8 @@ Json record_on_disk(const Outcome& outcome);
 
 /// Artificial contacts with the contact number Z = z, for which both fits gave a cut-off.
 ContactAnalysis made_up_contacts(double z);
+/// Sets the histogram of the angles in the record of a state, and the troughs.
+void set_angles(Json& state, const AngleHistogram& histogram, int particles);
 /// Replaces the contacts of the nearest state of an artificial outcome.
 void set_nearest_contacts(Outcome& outcome, const ContactAnalysis& analysis);
 

@@ -128,7 +128,7 @@ std::vector<Outcome> outcomes(int replicates, int contacts) {
     list.push_back(test::made_up_outcome(spec));
     int edges = contacts;
     for (Json& state : list.back().measured.at(Measure::contacts).states)
-      put_trough(state, packing_with(contacts, edges += 5, 5 * contacts, random), spec.particles);
+      test::set_angles(state, packing_with(contacts, edges += 5, 5 * contacts, random), spec.particles);
   }
   return list;
 }
