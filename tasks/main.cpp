@@ -25,11 +25,11 @@
 namespace isojam {
 namespace {
 
-constexpr AddCommand commands[]{add_run,         add_validate, add_aggregate, add_status, add_rerun, add_measure,
+constexpr AddCommand commands[]{add_run,    add_validate, add_aggregate,   add_status, add_rerun, add_measure,
 #ifdef ISOJAM_EXTRAS
-                                add_export,      add_report,   add_chart,
+                                add_export, add_report,   add_chart,
 #endif
-                                add_completions, add_manual};
+                                add_fields, add_schema,   add_completions, add_manual};
 
 ExitCode parse_and_run(int argc, char** argv) {
   Session session;

@@ -109,8 +109,8 @@ struct JamOptions {
 /// Stages of the protocol. `consolidation` is compression, and `expansion` is decompression.
 enum class JamStage { consolidation, expansion };
 template <>
-inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::consolidation, "consolidation"},
-                                                 EnumName{JamStage::expansion, "expansion"}};
+inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::consolidation, "compression"},
+                                                 EnumName{JamStage::expansion, "decompression"}};
 
 /// Difference between two successive states of a solution branch. It is computed for every step from one state to the
 /// next; is_rearranged() decides whether the step contains a rearrangement. On a smooth solution branch, the energy is

@@ -88,6 +88,8 @@ void add_run(CLI::App& app, Session& session);
 void add_validate(CLI::App& app, Session& session);
 void add_aggregate(CLI::App& app, Session& session);
 void add_status(CLI::App& app, Session& session);
+void add_fields(CLI::App& app, Session& session);
+void add_schema(CLI::App& app, Session& session);
 void add_rerun(CLI::App& app, Session& session);
 void add_measure(CLI::App& app, Session& session);
 void add_completions(CLI::App& app, Session& session);

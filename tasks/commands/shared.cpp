@@ -43,7 +43,7 @@ void warn_about_kernels(Console& console) {
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress) {
   const auto& step = progress.result.path.back();
   return fmt::format("{}: {} at density {:.4f}, energy per particle {:.1e}, residual {:.1e}", replicate_name(spec),
-                     stage_text(to_string(step.stage)), step.density, step.energy_per_particle, step.summary.residual);
+                     to_string(step.stage), step.density, step.energy_per_particle, step.summary.residual);
 }
 
 std::vector<std::string> recorded_names(const std::string& directory) {

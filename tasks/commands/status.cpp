@@ -110,7 +110,7 @@ ExitCode status(const StatusArguments& arguments, Console&) {
   for (const auto& replicate : survey.under_way) {
     text +=
         fmt::format("  {}: {}{} at density {:.4f}, {} steps, {} of CPU time, last step {} ago\n", replicate.name,
-                    is_running(replicate) ? "" : "interrupted in ", stage_text(replicate.stage), replicate.density,
+                    is_running(replicate) ? "" : "interrupted in ", replicate.stage, replicate.density,
                     replicate.steps, duration_text(replicate.cpu_seconds), duration_text(replicate.seconds_since_step));
   }
   for (const auto& line : survey.damaged) text += fmt::format("  problem: {}\n", line);

@@ -173,7 +173,8 @@ std::size_t sized_by_keys(const JsonPlace& object, const Many& list, const std::
 
 bool can_be_absent(const FieldEntry& field) {
   const auto* const maybe = std::get_if<Maybe>(&field.member);
-  return field.presence != Presence::always || (maybe && !maybe->reason);
+  const auto* const custom = std::get_if<Custom>(&field.member);
+  return field.presence != Presence::always || (maybe && !maybe->reason) || (custom && custom->fields);
 }
 
 bool can_be_null(const FieldEntry& field, const MemberRef& member) {

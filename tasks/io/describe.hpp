@@ -124,8 +124,10 @@ struct Maybe {
 struct Custom {
   std::function<Json()> write;  ///< null if the field is absent
   std::function<void(const JsonPlace&)> read;
-  Json schema;
-  std::string kind;  ///< the allowed values in words, for the page of fields
+  Json schema = nullptr;
+  std::string kind = "";  ///< the allowed values in words, for the page of fields
+  /// fields of the value, which then needs no schema; the value is an object that can be absent
+  std::function<void(Fields&)> fields = nullptr;
 };
 
 struct MemberRef : std::variant<double*, bool*, std::string*, Integer, Choice, Nested, Many, Maybe, Custom> {

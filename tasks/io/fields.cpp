@@ -26,6 +26,11 @@ Core core_of(const FieldEntry& field) {
     MemberRef inner = maybe->example();
     core.member = std::move(inner);
   }
+  if (const auto* const custom = std::get_if<Custom>(&core.member); custom && custom->fields) {
+    core.optional = true;
+    MemberRef inner = Nested{custom->fields};
+    core.member = std::move(inner);
+  }
   core.nullable = core.nullable || (std::holds_alternative<double*>(core.member) && !field.finite_only);
   core.optional = core.optional || field.presence != Presence::always;
   return core;

@@ -102,14 +102,18 @@ void check_seal(std::string_view text, const std::string& file) {
     throw InputError({file, "/checksum", "the file is damaged: its content does not match its checksum", "", ""});
 }
 
-Json parse_sealed(std::string_view text, const std::string& file) {
-  check_seal(text, file);
+Json parsed_document(std::string_view text, const std::string& file) {
   check_depth(text, file);
   try {
     return parsed(text);
   } catch (const Json::exception& error) {
     throw InputError({file, "", std::string("not valid JSON: ") + error.what(), "", ""});
   }
+}
+
+Json parse_sealed(std::string_view text, const std::string& file) {
+  check_seal(text, file);
+  return parsed_document(text, file);
 }
 
 std::string read_result(const std::string& file) {

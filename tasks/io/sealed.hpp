@@ -20,6 +20,9 @@ void check_seal(std::string_view text, const std::string& file);
 /// does not match the text, or if objects and lists are nested more than 32 levels deep.
 Json parse_sealed(std::string_view text, const std::string& file);
 
+/// Parses a text without a check of its checksum. Throws InputError if it is not JSON or nested too deeply.
+Json parsed_document(std::string_view text, const std::string& file);
+
 /// Reads the text of a file that isojam wrote, without checking it. Throws FileError if the file is missing or cannot
 /// be read at the moment. Throws InputError if it is not a regular file.
 std::string read_result(const std::string& file);

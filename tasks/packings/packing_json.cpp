@@ -139,7 +139,7 @@ Composition read_solids(const JsonPlace& place, std::size_t n) {
 Json to_json(const Packing& packing) {
   Json json;
   put_solids(json, packing.solids);
-  json["phi"] = packing.density();
+  json["density"] = packing.density();
   put_cell(json, packing.cell);
   for (const auto* key : {"positions", "orientations", "positions_low", "orientations_low"}) json[key] = Json::array();
   for (const auto& pose : packing.poses) {

@@ -3,74 +3,21 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
+#include "engine/solve/jamming_point.hpp"
 #include "tasks/packings/packing_json.hpp"
 #include "tasks/packings/start_packing.hpp"
-#include "tasks/records/record.hpp"
-#include "tasks/records/texts.hpp"
-#include "tasks/records/work_json.hpp"
+#include "tasks/records/document.hpp"
 
 namespace isojam {
+
+static void describe(Fields& field, ProcessId& process) {
+  field("machine", process.machine, "Boot of the machine and PID namespace.");
+  field("process", process.process, "Number of the process.");
+  field("started", process.started, "Start of the process, in clock ticks since the boot.");
+}
+
 namespace {
-
-/// If no contact carries a force, the residual is infinite. JSON has no infinity, so null is written.
-Json residual_json(double residual) { return std::isinf(residual) ? Json(nullptr) : Json(residual); }
-double read_residual(const JsonPlace& place) {
-  return place.value().is_null() ? std::numeric_limits<double>::infinity() : place.number(not_negative);
-}
-
-Json step_json(const JamStep& step) {
-  const auto& summary = step.summary;
-  Json json;
-  json["stage"] = to_string(step.stage);
-  json["density"] = step.density;
-  json["energy_per_particle"] = step.energy_per_particle;
-  json["pressure"] = step.pressure;
-  json["deviator"] = step.deviator;
-  json["descents"] = step.descents;
-  if (step.rearrangement) json["rearrangement"] = to_json(*step.rearrangement);
-  if (step.lost) json["lost"] = true;
-  json["stopped"] = to_string(summary.reason);
-  json["energy"] = summary.energy;
-  json["residual"] = residual_json(summary.residual);
-  json["residual_floor"] = residual_json(summary.residual_floor);
-  json["double_double"] = summary.precision == Precision::double_double;
-  json["evaluations"] = summary.evaluations;
-  json["iterations"] = summary.iterations;
-  json["work"] = to_json(summary.work);
-  return json;
-}
-
-JamStep read_step(const JsonPlace& place) {
-  JamStep step;
-  step.stage = place.at("stage").choice<JamStage>();
-  step.density = place.at("density").number(not_negative);
-  step.energy_per_particle = place.at("energy_per_particle").number(any_number);
-  step.pressure = place.at("pressure").number(any_number);
-  step.deviator = place.at("deviator").number(not_negative);
-  step.descents = static_cast<int>(place.at("descents").integer({0, 1e9}));
-  if (place.has("rearrangement")) step.rearrangement = read_rearrangement(place.at("rearrangement"));
-  step.lost = place.has("lost") && place.at("lost").boolean();
-  auto& summary = step.summary;
-  summary.reason = place.at("stopped").choice<StopReason>();
-  summary.energy = place.at("energy").number(any_number);
-  summary.residual = read_residual(place.at("residual"));
-  summary.residual_floor = read_residual(place.at("residual_floor"));
-  summary.precision = place.at("double_double").boolean() ? Precision::double_double : Precision::working;
-  summary.evaluations = place.at("evaluations").integer(count_range);
-  summary.iterations = place.at("iterations").integer(count_range);
-  summary.work = read_work(place.at("work"));
-  return step;
-}
-
-Json cycle_json(const Cycle& cycle) {
-  Json json;
-  json["energy_per_particle"] = cycle.energy_per_particle;
-  if (cycle.phi_j) json["phi_j"] = *cycle.phi_j;
-  if (cycle.nearest) json["nearest"] = to_json(*cycle.nearest);
-  return json;
-}
 
 bool is_finite(const JamStep& step) {
   const auto& summary = step.summary;
@@ -79,124 +26,151 @@ bool is_finite(const JamStep& step) {
          !std::isnan(summary.residual_floor);
 }
 
-Packing read_own_packing(const JsonPlace& place, const ReplicateSpec& spec) {
-  auto packing = read_packing(place);
-  if (packing.size() != spec.particles || !are_particles_of(packing, spec.solid))
-    place.refuse("the packing does not belong to this replicate",
-                 fmt::format("{} particles of {}", spec.particles, to_string(spec.solid)));
-  return packing;
+/// A packing, which must have the particles of this replicate.
+Custom packing_of(Packing& packing, const ReplicateSpec& spec) {
+  return {[&packing] { return to_json(packing); },
+          [&packing, &spec](const JsonPlace& place) {
+            packing = read_packing(place);
+            if (packing.size() != spec.particles || !are_particles_of(packing, spec.solid))
+              place.refuse("the packing does not belong to this replicate",
+                           fmt::format("{} particles of {}", spec.particles, to_string(spec.solid)));
+          },
+          {{"type", "object"}},
+          "a packing"};
 }
 
-void read_states(const JsonPlace& root, const ReplicateSpec& spec, JamResult& result) {
-  const auto states = root.at("states"), steps = root.at("state_steps");
-  const auto count = states.expect_list("a list of packings");
-  steps.expect_length(count, "one step for each state");
-  const auto last = static_cast<double>(result.path.size()) - 1;
-  for (std::size_t k = 0; k < count; ++k) {
-    result.states.push_back(read_own_packing(states.at(k), spec));
-    result.state_steps.push_back(static_cast<int>(steps.at(k).integer({0, last})));
-  }
+/// A list of objects that `describe_one` describes.
+template <class T, class DescribeOne>
+Many list_of(std::vector<T>& list, const DescribeOne& describe_one) {
+  return {[&list] { return list.size(); }, [&list](std::size_t size) { list.resize(size); },
+          [&list, describe_one](std::size_t k) {
+            return MemberRef(Nested{[&one = list[k], describe_one](Fields& field) { describe_one(field, one); }});
+          },
+          nullptr, std::nullopt};
 }
 
-Cycle read_cycle(const JsonPlace& place, const ReplicateSpec& spec) {
-  Cycle cycle;
-  cycle.energy_per_particle = place.at("energy_per_particle").number(any_number);
-  if (place.has("phi_j")) cycle.phi_j = place.at("phi_j").number(any_number);
-  if (place.has("nearest")) cycle.nearest = read_own_packing(place.at("nearest"), spec);
-  return cycle;
+/// `any` is a packing that new elements of lists have until they are read.
+void describe_result(Fields& field, JamResult& result, const ReplicateSpec& spec, const Packing& any) {
+  field("status", result.status, "Reason for the end of the run; `not_called` if it has not ended.");
+  field("evaluations", result.evaluations, "Number of evaluations of energy and forces so far.");
+  field("pairs", result.counts, "Numbers of pairs so far, as in a record.");
+  field("work", result.work, "Numbers of operations so far, as in a record.");
+  field.list.push_back({"path", "All strain steps so far.", list_of(result.path, [](Fields& inner, JamStep& step) {
+                          Reasoned<> unknown;
+                          describe(inner, step, unknown, StepOf::checkpoint);
+                        })});
+  field("state_steps", result.state_steps, "Index in `path` of the step of each state.");
+  const auto state = [&spec](Packing& packing) { return packing_of(packing, spec); };
+  field.list.push_back(
+      {"states", "Packings of the decompression so far.",
+       Many{[&result] { return result.states.size(); }, [&result, &any](std::size_t size) { result.states.resize(size, any); },
+            [&result, state](std::size_t k) { return MemberRef(state(result.states[k])); }, nullptr, std::nullopt}});
+  field.list.push_back(
+      {"cycles", "Training cycles so far.", list_of(result.cycles, [state, &any](Fields& inner, Cycle& cycle) {
+         inner("energy_per_particle", cycle.energy_per_particle, "As in a record.");
+         inner("phi_j", cycle.phi_j, "As in a record.");
+         auto nearest = state(cycle.nearest ? *cycle.nearest : cycle.nearest.emplace(any));
+         inner.custom("nearest", std::move(nearest), "Last state of the decompression.");
+       })});
 }
 
-JamResult read_result(const JsonPlace& root, const ReplicateSpec& spec) {
-  JamResult result;
-  result.status = root.at("status").choice<JamStatus>();
-  result.evaluations = root.at("evaluations").integer(count_range);
-  result.counts = read_counts(root.at("pairs"));
-  result.work = read_work(root.at("work"));
-  const auto path = root.at("path");
-  const auto steps = path.expect_list(list_of_steps);
-  if (steps == 0) path.refuse("the list is empty", "one or more steps");
-  for (std::size_t k = 0; k < steps; ++k) result.path.push_back(read_step(path.at(k)));
-  read_states(root, spec, result);
-  if (root.has("cycles")) {
-    const auto cycles = root.at("cycles");
-    const auto count = cycles.expect_list("a list of cycles");
-    for (std::size_t k = 0; k < count; ++k) result.cycles.push_back(read_cycle(cycles.at(k), spec));
-  }
-  if (result.status != JamStatus::not_called)
-    result.phi_j = fit_jamming_point(energy_points(result), spec.options.decompression.fit_window);
-  return result;
-}
+/// The document of a checkpoint.
+struct Document {
+  std::string schema;
+  std::optional<std::string> checksum;
+  Provenance provenance;
+  Json spec;
+  ProcessId writer;
+  Timing timing;
+  JamProgress progress;
+};
 
-/// Index of a step in the path, or −1 if no solution branch was lost.
-int read_lost_branch(const JsonPlace& root) {
-  const auto steps = static_cast<double>(root.at("path").expect_list(list_of_steps));
-  return static_cast<int>(root.at("lost").integer({-1, steps - 1}));
+void describe_all(Fields& field, Document& document, const ReplicateSpec& spec) {
+  field("schema", document.schema, "Name and version of the file format.");
+  field("checksum", document.checksum, "Checksum of the text, as in a record.");
+  field("provenance", document.provenance, "The build, the manifest without its measures, and the seed.");
+  field.custom("spec",
+               {[&document] { return document.spec; },
+                [&document](const JsonPlace& place) { document.spec = place.value(); },
+                {{"type", "object"}},
+                "object"},
+               "Settings of the replicate without its measures.");
+  field("writer", document.writer, "The process that wrote the checkpoint.");
+  field.nested(
+      "timing",
+      [&timing = document.timing](Fields& inner) {
+        inner("wall_seconds", timing.wall_seconds, "Wall-clock time so far.").unit("s").range(not_negative).finite();
+        inner("cpu_seconds", timing.cpu_seconds, "CPU time so far.").unit("s").range(not_negative).finite();
+      },
+      "Time that the replicate has taken.");
+  JamProgress& progress = document.progress;
+  field("stage", progress.stage, "Stage of the next step.");
+  field("step_fraction", progress.step_fraction, "Present step fraction.").range({0, 1, true}).finite();
+  field("halvings", progress.halvings, "Number of steps that failed or ended a solution branch.").range({0, 100});
+  field("lost", progress.lost, "Index in `path` of the last equilibrium of a branch that has just ended, or −1.")
+      .range({-1, count_range.high});
+  describe_result(field, progress.result, spec, progress.packing);
+  field.custom("packing", packing_of(progress.packing, spec), "Packing from which the next step starts.");
 }
 
 /// Build and manifest of the checkpoint. The digest excludes measures, because measures may be added while a run is
 /// interrupted.
-Json origin(const ReplicateSpec& spec) {
-  auto json = provenance(spec);
-  json["manifest_digest"] = spec.sweep_digest;
-  return json;
+Provenance origin(const ReplicateSpec& spec) {
+  auto provenance = provenance_of(spec);
+  provenance.manifest_digest = spec.sweep_digest;
+  return provenance;
 }
+
 Json run_of(const ReplicateSpec& spec) {
   auto json = to_json(spec);
   json.erase("measure");
   return json;
 }
 
-Json to_json(const ProcessId& process) {
-  return {{"machine", process.machine}, {"process", process.process}, {"started", process.started}};
+void check_indices(const JsonPlace& root, const JamProgress& progress) {
+  const auto& [path, steps] = std::pair{progress.result.path.size(), progress.result.state_steps};
+  if (path == 0) root.at("path").refuse("the list is empty", "one or more steps");
+  const auto is_step = [&count = path](int index) { return static_cast<std::size_t>(index) < count; };
+  if (!std::all_of(steps.begin(), steps.end(), is_step)) root.at("state_steps").refuse("a state has no step");
+  if (steps.size() != progress.result.states.size()) root.at("state_steps").refuse("not one step for each state");
+  if (progress.lost >= 0 && !is_step(progress.lost)) root.at("lost").refuse("no such step");
 }
 
 }  // namespace
 
 std::optional<Json> make_checkpoint(const ReplicateSpec& spec, const Checkpoint& checkpoint) {
-  const auto& progress = checkpoint.progress;
-  const auto& result = progress.result;
-  if (!std::all_of(result.path.begin(), result.path.end(), is_finite)) return std::nullopt;
-  Json json;
-  json["schema"] = checkpoint_schema;
-  json["provenance"] = origin(spec);
-  json["spec"] = run_of(spec);
-  json["writer"] = to_json(this_process());
-  json["timing"] = to_json(checkpoint.spent);
-  json["status"] = to_string(result.status);
-  json["stage"] = to_string(progress.stage);
-  json["step_fraction"] = progress.step_fraction;
-  json["halvings"] = progress.halvings;
-  json["lost"] = progress.lost;
-  json["evaluations"] = result.evaluations;
-  json["pairs"] = to_json(result.counts);
-  json["work"] = to_json(result.work);
-  json["path"] = Json::array();
-  for (const auto& step : result.path) json["path"].push_back(step_json(step));
-  json["state_steps"] = result.state_steps;
-  json["states"] = Json::array();
-  for (const auto& state : result.states) json["states"].push_back(to_json(state));
-  for (const auto& cycle : result.cycles) json["cycles"].push_back(cycle_json(cycle));
-  json["packing"] = to_json(progress.packing);
-  return json;
+  const auto& path = checkpoint.progress.result.path;
+  if (!std::all_of(path.begin(), path.end(), is_finite)) return std::nullopt;
+  Document document{std::string(checkpoint_schema),
+                    {},
+                    origin(spec),
+                    run_of(spec),
+                    this_process(),
+                    checkpoint.spent,
+                    checkpoint.progress};
+  Fields fields;
+  describe_all(fields, document, spec);
+  return written(fields);
 }
 
-ProcessId read_writer(const JsonPlace& root) {
-  const auto writer = root.at("writer");
-  return {writer.at("machine").text(), writer.at("process").integer(count_range),
-          writer.at("started").integer(count_range)};
-}
+ProcessId read_writer(const JsonPlace& root) { return read<ProcessId>(root.at("writer")); }
 
 Checkpoint read_checkpoint(const JsonPlace& root, const ReplicateSpec& spec) {
   root.at("schema").choice(std::array{checkpoint_schema});
-  if (root.at("provenance").value() != origin(spec))
+  if (root.at("provenance").value() != written(origin(spec)))
     root.at("provenance").refuse("the checkpoint belongs to another manifest or another build of isojam");
   if (root.at("spec").value() != run_of(spec)) root.at("spec").refuse("the checkpoint belongs to another replicate");
-  read_writer(root);
-  const auto timing = root.at("timing");
-  return {{read_own_packing(root.at("packing"), spec), root.at("stage").choice<JamStage>(),
-           root.at("step_fraction").number({0, 1, true}), static_cast<int>(root.at("halvings").integer({0, 100})),
-           read_lost_branch(root), read_result(root, spec)},
-          {timing.at("wall_seconds").number(not_negative), timing.at("cpu_seconds").number(not_negative)}};
+  Document document{"", {}, {}, {}, {}, {}, begin_jam(read_packing(root.at("packing")), spec.options)};
+  document.progress.result = {};
+  Fields fields;
+  describe_all(fields, document, spec);
+  read_into(root, fields);
+  auto& progress = document.progress;
+  check_indices(root, progress);
+  auto& result = progress.result;
+  if (result.status != JamStatus::not_called)
+    result.phi_j = fit_jamming_point(energy_points(result), spec.options.decompression.fit_window);
+  return {std::move(progress), document.timing};
 }
 
 }  // namespace isojam

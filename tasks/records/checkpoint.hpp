@@ -8,7 +8,7 @@
 
 namespace isojam {
 
-inline constexpr std::string_view checkpoint_schema = "isojam.checkpoint.v4";
+inline constexpr std::string_view checkpoint_schema = "isojam.checkpoint.v5";
 
 /// Makes the JSON document of a checkpoint: the progress of the replicate, its specification without measures, the
 /// build, and the process that writes it. Returns nullopt if a number of a strain step is not finite; such a run soon

@@ -51,7 +51,7 @@ struct Explanation {
 };
 
 std::optional<Explanation> explanation_of(JamStatus status, const Json& record) {
-  const auto stage = stage_text(record.at("path").back().at("stage").get_ref<const std::string&>());
+  const auto stage = record.at("path").back().at("stage").get_ref<const std::string&>();
   switch (status) {
     case JamStatus::density_limit:
       return Explanation{"max_density was reached before the end of compression", "increase max_density"};
@@ -89,7 +89,7 @@ std::string failure_text(const Json& record) {
     return why.starts_with("the cell is so small") ? fmt::format("{}; {}", why, cell_limit_remedy) : why;
   const auto& last = path.back();
   return fmt::format("{} ({} steps, density {}, residual {}){}{}", explanation->problem, path.size(),
-                     number_text(last.at("phi"), 4), number_text(last.at("residual"), 2),
+                     number_text(last.at("density"), 4), number_text(last.at("residual"), 2),
                      explanation->remedy.empty() ? "" : "; ", explanation->remedy);
 }
 

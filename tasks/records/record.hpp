@@ -3,17 +3,19 @@
 #include <string_view>
 
 #include "tasks/io/json.hpp"
+#include "tasks/records/document.hpp"
 #include "tasks/records/replicate.hpp"
 
 namespace isojam {
 
 inline constexpr std::string_view record_schema = "isojam.replicate.v5";
-inline constexpr std::string_view path_schema = "isojam.path.v2";
-inline constexpr std::string_view packing_schema = "isojam.packing.v3";
+inline constexpr std::string_view path_schema = "isojam.path.v3";
+inline constexpr std::string_view packing_schema = "isojam.packing.v4";
 
-/// Makes the record of an outcome that was not interrupted. If the replicate failed, quantities of the replicate are
-/// null, and the record states the reason. The records of two runs of a replicate by the same build differ at most in
-/// `timing`.
+/// Makes the record of an outcome that was not interrupted. If the replicate failed, the record states the reason. The
+/// records of two runs of a replicate by the same build differ at most in `timing`.
+Record record_of(const Outcome& outcome);
+/// The JSON of this record, with its digest.
 Json make_record(const Outcome& outcome);
 
 /// True if the result digest of a record depends on this key of the record.
@@ -25,11 +27,11 @@ std::string result_digest(const Json& record);
 /// Makes a record to which measures were added. `record` is a record with all measures, and `before` is the record
 /// before the addition. The returned record has the provenance of `before` with the new manifest digest, and the sum of
 /// the times of both. It also states which measures were added, which build added them, and the digests of `before`.
-Json with_added(Json record, const Json& before, const std::vector<Measure>& added);
+Json with_added(Record record, const Record& before, const std::vector<Measure>& added);
 
 /// Makes the record of a replicate that failed before any measure. It is equal to `before`, except that it has the
-/// measures of `spec`.
-Json failed_record(const Json& before, const ReplicateSpec& spec);
+/// measures of `spec`, and the times and the build of the addition.
+Record failed_record(Record before, const ReplicateSpec& spec);
 
 /// Makes the document of a packing file, with the nearest state. The replicate must not have failed. `result_digest` is
 /// the digest of its record.
@@ -37,10 +39,5 @@ Json make_packing(const Outcome& outcome, const std::string& result_digest);
 /// Makes the document of a path file, with all states of the decompression and their Δφ. The conditions are the same as
 /// for make_packing().
 Json make_path(const Outcome& outcome, const std::string& result_digest);
-
-/// Part of records and checkpoints: the build, the manifest digest, the seed, and the file of the initial configuration
-/// if there is one.
-Json provenance(const ReplicateSpec& spec);
-Json to_json(const Timing& timing);
 
 }  // namespace isojam

@@ -84,64 +84,64 @@ auto with_state_file(const fs::path& directory, const RecordedReplicate& replica
   });
 }
 
-/// Summarises a record. `digest` is the result digest of the file.
-RecordedReplicate summarised(Json record, const std::string& file, const std::string& name, const std::string& digest) {
-  auto summary = summarise_record(record, file);
-  if (digest != summary.result_digest)
-    throw InputError(
-        {file, "/result_digest", "the record was changed: its result does not match its digest", digest, ""});
+RecordedReplicate recorded(Json json, const std::string& file, const std::string& name) {
+  auto document = read_record_document(json, file);
+  auto summary = summarise_record(document, json, file);
   if (const auto own = name_of(summary); own != name)
     throw InputError(
         {file, "/spec", fmt::format("the file name does not match the replicate {}", own), own + ".json", ""});
-  return {name, std::move(record), std::move(summary)};
-}
-
-RecordedReplicate parsed_record(const std::string& text, const std::string& file, const std::string& name) {
-  auto record = parse_sealed(text, file);
-  const auto digest = result_digest(record);
-  return summarised(std::move(record), file, name, digest);
+  return {name, std::move(json), std::move(document), std::move(summary)};
 }
 
 }  // namespace
 
 RecordedReplicate read_record(const fs::path& directory, const std::string& name) {
   const auto file = file_in(directory, "records", name);
-  return with_remedy(
-      [&] { return parsed_record(expect_present(file, [&] { return read_result(file); }), file, name); });
+  return with_remedy([&] {
+    auto json = parse_sealed(expect_present(file, [&] { return read_result(file); }), file);
+    auto replicate = recorded(std::move(json), file, name);
+    check_measures({replicate.record, file});
+    if (const auto digest = result_digest(replicate.record); digest != replicate.summary.result_digest)
+      throw InputError(
+          {file, "/result_digest", "the record was changed: its result does not match its digest", digest, ""});
+    return replicate;
+  });
 }
 
-static RecordedReplicate read_quickly(const std::string& file, const std::string& name, States states) {
-  const auto text = expect_present(file, [&] { return read_result(file); });
-  if (auto shorter = abridged(text, states)) {
-    const auto is = [&](const char* key, std::string_view value) {
-      const auto found = shorter->record.find(key);
-      return found != shorter->record.end() && found->is_string() && found->get_ref<const std::string&>() == value;
-    };
-    if (is("schema", record_schema) && is("result_digest", shorter->result_digest))
-      return summarised(std::move(shorter->record), file, name, shorter->result_digest);
-  }
-  return parsed_record(text, file, name);
+namespace {
+
+RecordedReplicate read_quickly(const fs::path& directory, const std::string& name, States states) {
+  const auto file = file_in(directory, "records", name);
+  return with_remedy([&] {
+    const auto text = expect_present(file, [&] { return read_result(file); });
+    check_seal(text, file);
+    return recorded(parsed_document(abridged(text, states), file), file, name);
+  });
 }
+
+}  // namespace
 
 RecordedReplicate read_abridged_record(const fs::path& directory, const std::string& name) {
-  return with_remedy([&] { return read_quickly(file_in(directory, "records", name), name, States::keep); });
+  return read_quickly(directory, name, States::all);
 }
 
 RecordedReplicate read_record_without_states(const fs::path& directory, const std::string& name) {
-  return with_remedy([&] { return read_quickly(file_in(directory, "records", name), name, States::drop); });
+  auto replicate = read_quickly(directory, name, States::nearest);
+  replicate.summary.states.clear();
+  return replicate;
 }
 
 bool is_of(const RecordedReplicate& replicate, const Plan& plan) {
   if (replicate.summary.manifest_digest == plan.manifest_digest()) return true;
   if (is_of_sweep(plan.manifest(), replicate.summary.measures, replicate.summary.manifest_digest)) return true;
   const auto place = plan.place_of(replicate.name);
-  return place && replicate.record.at("provenance").at("seed") == plan.manifest().seed &&
+  return place && replicate.document.provenance.seed == plan.manifest().seed &&
          has_spec(replicate, plan.at(place->point, place->replicate));
 }
 
 bool is_superseded(const RecordedReplicate& replicate, const Plan& plan) {
   return replicate.summary.failed && plan.place_of(replicate.name) &&
-         replicate.record.at("provenance").at("seed") == plan.manifest().seed && !is_of(replicate, plan);
+         replicate.document.provenance.seed == plan.manifest().seed && !is_of(replicate, plan);
 }
 
 std::vector<Measure> lacks(const RecordedReplicate& replicate, const Manifest& manifest) {
@@ -165,17 +165,6 @@ void check_companions(const fs::path& directory, const RecordedReplicate& replic
 
 Json read_state_file_of(const fs::path& directory, const RecordedReplicate& replicate, const std::string& folder) {
   return with_state_file(directory, replicate, folder, read_state_file);
-}
-
-std::size_t index_of_nearest(const fs::path& directory, const RecordedReplicate& replicate) {
-  const JsonPlace record(replicate.record, file_in(directory, "records", replicate.name));
-  const auto states = record.at("states");
-  const auto step = record.at("nearest").at("step");
-  const auto count = states.expect_list(list_of_states);
-  for (std::size_t k = 0; k < count; ++k) {
-    if (states.at(k).at("step").value() == step.value()) return k;
-  }
-  step.refuse("no state belongs to this step");
 }
 
 std::optional<Manifest> stored_manifest(const fs::path& directory) {

@@ -15,7 +15,8 @@ namespace isojam {
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
 struct RecordedReplicate {
   std::string name;  ///< name of its files, without extension
-  Json record;
+  Json record;       ///< the file as JSON
+  Record document;   ///< the same file
   RecordSummary summary;
 };
 
@@ -23,11 +24,11 @@ struct RecordedReplicate {
 /// missing or damaged, if its result digest is wrong, or if it describes another replicate than its name.
 RecordedReplicate read_record(const std::filesystem::path& directory, const std::string& name);
 
-/// Reads the same record in less time, for tables. The key `path` is missing in `record`, and lists inside its states
-/// may be empty, except histograms of angles.
+/// Reads the same record in less time, for tables: shortened by abridged(), and without checks of its digest and of the
+/// parts of measures.
 RecordedReplicate read_abridged_record(const std::filesystem::path& directory, const std::string& name);
-/// Reads the same record in still less time, for `isojam status` and for tables of the nearest states. The list of
-/// states may be empty.
+/// Reads the same record in still less time, for `isojam status` and for tables of the nearest states. It has only the
+/// nearest state, and its summary has no list of states.
 RecordedReplicate read_record_without_states(const std::filesystem::path& directory, const std::string& name);
 
 /// True if the record has the result that this plan requests, apart from measures. This is the case if the identity()
@@ -52,9 +53,6 @@ void check_companions(const std::filesystem::path& directory, const RecordedRepl
 Json read_state_file_of(const std::filesystem::path& directory, const RecordedReplicate& replicate,
                         const std::string& folder);
 
-/// Index of the nearest state in the list `states` of the record. The replicate must not have failed. Throws InputError
-/// if the list does not contain the state.
-std::size_t index_of_nearest(const std::filesystem::path& directory, const RecordedReplicate& replicate);
 
 /// Throws FileError if the directory does not exist or is not a directory. The text of the error is the same for every
 /// command.

@@ -36,10 +36,6 @@ JamResult run_jam(const ReplicateSpec& spec, JamProgress from, std::stop_token s
 
 }  // namespace
 
-std::string_view stage_text(std::string_view stage) {
-  return stage == to_string(JamStage::consolidation) ? "compression" : "decompression";
-}
-
 MeasureOptions measure_options(const ReplicateSpec& spec) {
   auto options = spec.measuring;
   if (ends_at_zero_pressure(spec.options)) options.cohesion = spec.options.cohesion;
@@ -85,18 +81,19 @@ bool outside_fit_window(const Outcome& outcome) {
 
 }  // namespace
 
-std::vector<std::string> flags_of(const Outcome& outcome) {
+std::vector<Flag> flags_of(const Outcome& outcome) {
   assert(!outcome.failure);
-  std::vector<std::string> flags;
-  if (outcome.jam.status == JamStatus::goal_not_reached) flags.emplace_back(to_string(Flag::goal_not_reached));
+  std::vector<Flag> flags;
+  if (outcome.jam.status == JamStatus::goal_not_reached) flags.push_back(Flag::goal_not_reached);
   const auto by_energy = [&](int step) {
     return outcome.jam.path[static_cast<std::size_t>(step)].summary.reason == StopReason::energy_change;
   };
   if (std::any_of(outcome.jam.state_steps.begin(), outcome.jam.state_steps.end(), by_energy))
-    flags.emplace_back(to_string(Flag::not_balanced));
-  if (outside_fit_window(outcome)) flags.emplace_back(to_string(Flag::outside_fit_window));
+    flags.push_back(Flag::not_balanced);
+  if (outside_fit_window(outcome)) flags.push_back(Flag::outside_fit_window);
   for (const auto& [what, measurement] : outcome.measured) {
-    for (const auto& flag : measurement.flags) {
+    for (const auto& name : measurement.flags) {
+      const auto flag = *from_string<Flag>(name);
       if (std::find(flags.begin(), flags.end(), flag) == flags.end()) flags.push_back(flag);
     }
   }

@@ -30,9 +30,6 @@ struct Timing {
   }
 };
 
-/// Name of a stage of the protocol in messages: compression for `consolidation`, decompression for `expansion`.
-std::string_view stage_text(std::string_view stage);
-
 /// Result of one replicate, also of a failed or interrupted one.
 struct Outcome {
   ReplicateSpec spec;
@@ -70,8 +67,8 @@ Stages engine_stages();
 /// The reason why a result of the stage "jam" counts as a failure; nullopt if it does not.
 std::optional<Failure> failure_of(const JamResult& jam);
 
-/// Names of the flags of an outcome without failure, in a fixed order: first goal_not_reached, not_balanced and
+/// The flags of an outcome without failure, in a fixed order: first goal_not_reached, not_balanced and
 /// outside_fit_window, then the flags of the measures.
-std::vector<std::string> flags_of(const Outcome& outcome);
+std::vector<Flag> flags_of(const Outcome& outcome);
 
 }  // namespace isojam

@@ -283,7 +283,7 @@ void Store::write_added(const Outcome& outcome, const RecordedReplicate& before,
   for (const auto& [what, measurement] : outcome.measured) {
     if (!again.measured.contains(what)) added.push_back(what);
   }
-  const auto record = with_added(make_record(outcome), before.record, added);
+  const auto record = with_added(record_of(outcome), before.document, added);
   const auto digest = record.at("result_digest").get<std::string>();
   if (moved) {
     write_atomically(packing_path(outcome.spec), sealed(make_packing(outcome, digest)));
@@ -295,8 +295,7 @@ void Store::write_added(const Outcome& outcome, const RecordedReplicate& before,
 }
 
 void Store::write_added(const ReplicateSpec& spec, const RecordedReplicate& failed) const {
-  const auto record = failed_record(failed.record, spec);
-  write_atomically(record_path(spec), sealed(with_added(record, failed.record, {})));
+  write_atomically(record_path(spec), sealed(with_added(failed_record(failed.document, spec), failed.document, {})));
 }
 
 Manifest extend_manifest(const fs::path& directory, const std::vector<Measure>& more) {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <utility>
 
 #include "tasks/io/place.hpp"
@@ -53,24 +53,23 @@ std::optional<AngleHistogram> angles_of(const JsonPlace& state) {
   return read_angle_histogram(state.at("contacts").at("angle_bins"));
 }
 
-void read_values(const JsonPlace& root, RecordSummary& summary) {
-  const auto nearest = root.at("nearest");
+void set_values(const JsonPlace& root, const Record& record, RecordSummary& summary) {
+  const auto nearest = root.at("states").at(static_cast<std::size_t>(*record.nearest.value));
   const auto quantities = all_quantities();
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const bool of_replicate = quantities[i].of == Quantity::Of::replicate;
     summary.values[i] = quantity_value(of_replicate ? root : nearest, quantities[i]);
   }
   summary.angles = angles_of(nearest);
-  summary.residual = number_or_null(root.at("phi_j").at("residual"));
+  if (const double residual = record.phi_j.value->residual; std::isfinite(residual)) summary.residual = residual;
 }
 
-void read_states(const JsonPlace& states, RecordSummary& summary) {
+void set_states(const JsonPlace& states, const Record& record, RecordSummary& summary) {
   const auto quantities = all_quantities();
-  const auto count = states.expect_list(list_of_states);
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto state = states.at(k);
-    const auto distance = number_or_null(state.at("delta_phi"));
+  for (std::size_t k = 0; k < record.states.size(); ++k) {
+    const auto distance = record.states[k].delta_phi.value;
     if (!distance || *distance <= 0) continue;
+    const auto state = states.at(k);
     StateValues values{*distance};
     for (std::size_t i = 0; i < quantities.size(); ++i) {
       if (quantities[i].of == Quantity::Of::state) values.values[i] = quantity_value(state, quantities[i]);
@@ -82,42 +81,20 @@ void read_states(const JsonPlace& states, RecordSummary& summary) {
             [](const StateValues& a, const StateValues& b) { return a.delta_phi < b.delta_phi; });
 }
 
-std::string build_text(const JsonPlace& place) {
-  return fmt::format("{} ({}, {})", place.at("version").text(), place.at("git").text(), place.at("compiler").text());
+template <class Origin>
+std::string build_text(const Origin& origin) {
+  return fmt::format("{} ({}, {})", origin.version, origin.git, origin.compiler);
 }
 
-void read_additions(const JsonPlace& added, RecordSummary& summary) {
-  const auto count = added.expect_list("a list of added measures");
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto before = added.at(k).at("before");
-    summary.before.push_back(
-        {before.at("manifest_digest").text(), before.at("result_digest").text(), build_text(added.at(k))});
-  }
-}
-
-/// Reads a list of measures. Measures that this version does not know are ignored.
-std::vector<Measure> read_measures(const JsonPlace& measures) {
-  std::vector<Measure> list;
-  const auto count = measures.expect_list("a list of measures");
-  for (std::size_t k = 0; k < count; ++k) {
-    if (const auto measure = from_string<Measure>(measures.at(k).text())) list.push_back(*measure);
-  }
-  return list;
-}
-
-void read_flags(const JsonPlace& flags, RecordSummary& summary) {
-  summary.flagged = flags.expect_list("a list of flags") > 0;
-  for (const auto& name : flags.value()) {
-    const auto flag = name.is_string() ? from_string<Flag>(name.get_ref<const std::string&>()) : std::nullopt;
-    if (flag) summary.flags.push_back(*flag);
-  }
-}
-
-/// Throws unless the value is the name of this format.
-void check_format(const JsonPlace& place, std::string_view format) {
-  if (const auto theirs = place.text(); theirs != format)
-    place.refuse_with_remedy(fmt::format("another version of isojam wrote this file, in the format {}", theirs),
-                             "run its manifest again in another directory, or use that version");
+/// Throws unless a done record has results and a failed one has a reason.
+void check_status(const JsonPlace& root, const Record& record) {
+  const bool failed = record.status == RecordStatus::failed;
+  if (failed != record.failure.has_value())
+    root.at("status").refuse(failed ? "a failed replicate has a failure" : "a done replicate has no failure");
+  if (failed) return;
+  if (!record.phi_j.value || !record.flags.value) root.at("phi_j").refuse("a done replicate has results");
+  if (!record.nearest.value || static_cast<std::size_t>(*record.nearest.value) >= record.states.size())
+    root.at("nearest").refuse("no state has this index");
 }
 
 }  // namespace
@@ -127,38 +104,51 @@ bool has_any(const RecordSummary& summary, const std::vector<Flag>& flags) {
          summary.flags.end();
 }
 
-RecordSummary summarise_record(const Json& record, const std::string& file) {
-  const JsonPlace root(record, file);
-  check_format(root.at("schema"), record_schema);
+Record read_record_document(const Json& json, const std::string& file) {
+  const JsonPlace root(json, file);
+  if (const auto theirs = root.at("schema").text(); theirs != record_schema)
+    root.at("schema").refuse_with_remedy(
+        fmt::format("another version of isojam wrote this file, in the format {}", theirs),
+        "run its manifest again in another directory, or use that version");
+  auto record = read_document<Record>(json, file);
+  check_status(root, record);
+  return record;
+}
+
+RecordSummary summarise_record(const Json& json, const std::string& file) {
+  return summarise_record(read_record_document(json, file), json, file);
+}
+
+RecordSummary summarise_record(const Record& record, const Json& json, const std::string& file) {
+  const JsonPlace root(json, file);
   const auto spec = root.at("spec");
   RecordSummary summary;
   summary.solid = read_mixture(spec);
   summary.particles = static_cast<int>(spec.at("particles").integer({1, 1e9}));
   summary.parameters = spec.at("parameters").value();
-  spec.at("parameters").expect_object("an object");
   summary.replicate = static_cast<int>(spec.at("replicate").integer({0, 1e9}));
-  const auto provenance = root.at("provenance");
-  summary.study = summary.manifest_digest = provenance.at("manifest_digest").text();
-  summary.build = build_text(provenance);
-  if (provenance.has("added")) read_additions(provenance.at("added"), summary);
-  summary.measures = read_measures(spec.at("measure"));
-  if (root.has("nearest_only")) summary.nearest_only = read_measures(root.at("nearest_only"));
+  summary.study = summary.manifest_digest = record.provenance.manifest_digest;
+  summary.build = build_text(record.provenance);
+  for (const auto& addition : record.provenance.added.value_or(std::vector<Addition>{}))
+    summary.before.push_back({addition.manifest_digest, addition.result_digest, build_text(addition)});
+  const auto& measures = spec.at("measure");
+  for (std::size_t k = 0; k < measures.expect_list("a list of measures"); ++k)
+    summary.measures.push_back(measures.at(k).choice<Measure>());
+  summary.nearest_only = record.nearest_only.value_or(std::vector<Measure>{});
   for (const std::string key : {"protocol", "minimiser", "measure", "modes"})
     summary.settings[key] = spec.at(key).value();
   const bool is_sheared =
       std::find(summary.measures.begin(), summary.measures.end(), Measure::shear) != summary.measures.end();
   if (is_sheared && spec.has("shear")) summary.settings["shear"] = spec.at("shear").value();
-  summary.failed = root.at("status").choice(std::array<std::string_view, 2>{"done", "failed"}) == 1;
-  if (summary.failed) {
-    root.at("failure").at("where").text();
-    root.at("failure").at("why").text();
-  } else {
-    read_values(root, summary);
-    read_states(root.at("states"), summary);
-    read_flags(root.at("flags"), summary);
+  summary.failed = record.status == RecordStatus::failed;
+  if (!summary.failed) {
+    set_values(root, record, summary);
+    set_states(root.at("states"), record, summary);
+    summary.flags = *record.flags.value;
+    summary.flagged = !summary.flags.empty();
   }
-  summary.result_digest = root.at("result_digest").text();
-  summary.cpu_seconds = root.at("timing").at("cpu_seconds").number({0, 1e12});
+  summary.result_digest = record.result_digest;
+  summary.cpu_seconds = record.timing.cpu_seconds;
   return summary;
 }
 

@@ -9,6 +9,7 @@
 #include "tasks/io/json.hpp"
 #include "tasks/measure/flag.hpp"
 #include "tasks/measure/quantity.hpp"
+#include "tasks/records/document.hpp"
 
 namespace isojam {
 
@@ -61,8 +62,11 @@ struct RecordSummary {
 /// True if the replicate has at least one of these flags.
 bool has_any(const RecordSummary& summary, const std::vector<Flag>& flags);
 
-/// Reads the summary of a record. Throws InputError if the document is not a record of isojam, or if a value that
-/// tables need is missing.
-RecordSummary summarise_record(const Json& record, const std::string& file);
+/// Reads a record. Throws one InputError with all errors if the document is not a record of this format.
+Record read_record_document(const Json& json, const std::string& file);
+
+/// The summary of a record. `json` is its document. Throws InputError if a value that tables need is missing.
+RecordSummary summarise_record(const Record& record, const Json& json, const std::string& file);
+RecordSummary summarise_record(const Json& json, const std::string& file);
 
 }  // namespace isojam

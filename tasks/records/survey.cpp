@@ -33,7 +33,7 @@ UnderWay under_way(const fs::path& path) {
   replicate.name = path.stem().string();
   replicate.steps = static_cast<int>(root.at("path").expect_list(list_of_steps));
   replicate.stage = root.at("stage").text();
-  replicate.density = root.at("packing").at("phi").number({0, 1e9});
+  replicate.density = root.at("packing").at("density").number({0, 1e9});
   replicate.cpu_seconds = root.at("timing").at("cpu_seconds").number({0, 1e12});
   replicate.seconds_since_step = seconds_since(path);
   replicate.working = is_alive(read_writer(root));

@@ -33,7 +33,7 @@ bool has(const std::vector<Measure>& measures, Measure what) {
 
 /// True if the replicate failed before the first measure.
 bool failed_before_measures(const RecordedReplicate& held) {
-  return !from_string<Measure>(held.record.at("failure").at("where").get_ref<const std::string&>());
+  return !from_string<Measure>(held.document.failure->where);
 }
 
 bool has_path(const fs::path& directory, const RecordedReplicate& held) {
@@ -55,8 +55,8 @@ std::optional<std::string> without_states(const fs::path& directory, const Recor
 std::vector<Packing> nearest_packing_of(const fs::path& directory, const RecordedReplicate& held) {
   const auto json = read_state_file_of(directory, held, "packings");
   auto nearest = read_packing({json, file_of(directory, "packings", held.name)});
-  std::vector<Packing> packings(held.record.at("states").size(), Packing{nearest.solids, nearest.cell, {}});
-  packings.at(index_of_nearest(directory, held)) = std::move(nearest);
+  std::vector<Packing> packings(held.document.states.size(), Packing{nearest.solids, nearest.cell, {}});
+  packings.at(static_cast<std::size_t>(*held.document.nearest.value)) = std::move(nearest);
   return packings;
 }
 
@@ -73,10 +73,9 @@ std::vector<Packing> packings_of(const fs::path& directory, const RecordedReplic
 
 /// True if the relaxation to minima has changed a state.
 bool has_moved(const JamResult& jam, const RecordedReplicate& held) {
-  const auto& states = held.record.at("states");
   for (std::size_t k = 0; k < jam.state_steps.size(); ++k) {
     const auto& step = jam.path[static_cast<std::size_t>(jam.state_steps[k])];
-    if (states.at(k).at("descents") != step.descents) return true;
+    if (held.document.states.at(k).step.descents != step.descents) return true;
   }
   return false;
 }
@@ -138,7 +137,7 @@ Stages Adder::stages() {
     const auto& directory = store_.directory();
     auto& held = records_.at(replicate_name(spec));
     held = read_record(directory, replicate_name(spec));
-    auto jam = restored_jam({held->record, store_.record_path(spec).string()}, packings_of(directory, *held), spec);
+    auto jam = restored_jam(held->document, packings_of(directory, *held), spec, store_.record_path(spec).string());
     auto progress = begin_expansion(jam.states.at(*nearest_state(jam)), spec.options);
     progress.result = std::move(jam);
     return {std::move(progress), {}};

@@ -56,7 +56,7 @@ ExitCode export_rows(const ExportArguments& arguments, Console& console) {
   for (const auto& name : names) {
     const auto held = own_record(arguments, plan, name);
     if (!of_contacts) {
-      output.append(rows.lines(arguments.directory, held));
+      output.append(rows.lines(held));
     } else if (has_packing(arguments, held, console)) {
       append_contacts(arguments, held, output);
     }

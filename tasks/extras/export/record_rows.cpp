@@ -109,7 +109,7 @@ void RecordRows::add_head(const std::vector<std::string>& parameters) {
 
 void RecordRows::add_state() {
   add("state", [](const Source& s) { return s.state ? Json(s.index) : Json(nullptr); });
-  for (const auto* key : {"step", "phi", "delta_phi", "energy_per_particle", "pressure", "deviator", "residual",
+  for (const auto* key : {"step", "density", "delta_phi", "energy_per_particle", "pressure", "deviator", "residual",
                           "residual_floor", "stopped", "descents"}) {
     add(key, [pointer = std::string("/") + key](const Source& s) {
       return s.state ? copy_of(value_at(*s.state, pointer)) : Json(nullptr);
@@ -163,11 +163,12 @@ std::string RecordRows::line(const Source& source) const {
 
 std::string RecordRows::head() const { return head_line(format_, columns_); }
 
-std::string RecordRows::lines(const std::filesystem::path& directory, const RecordedReplicate& held) const {
+std::string RecordRows::lines(const RecordedReplicate& held) const {
   const bool failed = held.summary.failed;
   if (of_ == RowOf::replicate) {
     if (failed) return line({held, nullptr, 0});
-    return line({held, &held.record.at("nearest"), index_of_nearest(directory, held)});
+    const auto nearest = static_cast<std::size_t>(*held.document.nearest.value);
+    return line({held, &held.record.at("states")[nearest], nearest});
   }
   std::string text;
   const auto& states = held.record.at("states");

@@ -38,7 +38,7 @@ class RecordRows {
   std::string head() const;
   /// The lines of a replicate. If it failed, it has one line in the table of replicates, and none in the table of
   /// states.
-  std::string lines(const std::filesystem::path& directory, const RecordedReplicate& held) const;
+  std::string lines(const RecordedReplicate& held) const;
 
  private:
   /// Sources of the values of a row; `state` is null for a failed replicate.

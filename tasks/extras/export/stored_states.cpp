@@ -45,11 +45,11 @@ std::vector<StoredState> states_of_path(const fs::path& directory, const Recorde
 
 std::vector<StoredState> stored_states(const fs::path& directory, const RecordedReplicate& held, bool path) {
   if (path) return states_of_path(directory, held);
-  const JsonPlace record(held.record, file_of(directory, "records", held.name));
   const auto json = read_state_file_of(directory, held, "packings");
   const JsonPlace packing(json, file_of(directory, "packings", held.name));
   std::vector<StoredState> one;
-  one.push_back({index_of_nearest(directory, held), distance_of(record.at("nearest")), read_packing(packing)});
+  const auto nearest = static_cast<std::size_t>(*held.document.nearest.value);
+  one.push_back({nearest, held.document.states[nearest].delta_phi.value, read_packing(packing)});
   return one;
 }
 

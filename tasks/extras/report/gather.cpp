@@ -85,7 +85,7 @@ Json state_points(const Json& record) {
   for (const auto& state : list_at(record, "/states")) {
     const auto energy = number_at(state, "/energy_per_particle");
     Json point;
-    point["phi"] = number_at(state, "/phi");
+    point["phi"] = number_at(state, "/density");
     point["delta_phi"] = number_at(state, "/delta_phi");
     point["root"] = energy.is_null() ? energy : Json(sixth_root(energy.get<double>()));
     for (const auto* name : drawn_quantities) point[name] = number_at(state, std::string(quantity(name).pointer));
