@@ -49,7 +49,7 @@ void write_field(Json& object, const FieldEntry& field, const MemberRef& member)
     return;
   }
   auto json = value_of(member);
-  if (std::holds_alternative<Custom>(member) && json.is_null()) return;
+  if (std::holds_alternative<Custom>(member) && json.is_null() && !field.writes_null) return;
   if (field.presence == Presence::if_true && json == false) return;
   if (field.presence == Presence::if_any && json.empty()) return;
   object[field.key] = std::move(json);

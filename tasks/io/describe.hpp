@@ -153,6 +153,7 @@ struct FieldEntry {
   Presence presence = Presence::always;  ///< an std::optional is always optional
   bool finite_only = false;              ///< true if the number is never infinite or NaN, and so never null
   bool apart = false;                    ///< true if a record has the field among its details
+  bool writes_null = false;              ///< true if a Custom value that is null is written, without a reason
   Column quantity = {};                  ///< without name if tables do not have it
 
   FieldEntry& unit(std::string_view name) { return unit_name = name, *this; }
@@ -167,6 +168,7 @@ struct FieldEntry {
     return std::get<Many>(member).most = most, *this;
   }
   FieldEntry& distinct() { return std::get<Many>(member).all_different = true, *this; }
+  FieldEntry& nulls() { return writes_null = true, *this; }
   FieldEntry& detail() { return apart = true, *this; }
   FieldEntry& column(const Column& column) { return quantity = column, *this; }
 };

@@ -88,7 +88,4 @@ struct Record {
 };
 void describe(Fields& field, Record& record);
 
-/// Checks the parts of all measures against their descriptions. Throws InputError.
-void check_measures(const JsonPlace& record);
-
 }  // namespace isojam

@@ -8,7 +8,7 @@
 
 namespace isojam {
 
-inline constexpr std::string_view record_schema = "isojam.replicate.v5";
+inline constexpr std::string_view record_schema = "isojam.record.v5";
 inline constexpr std::string_view path_schema = "isojam.path.v3";
 inline constexpr std::string_view packing_schema = "isojam.packing.v4";
 

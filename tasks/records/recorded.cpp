@@ -100,7 +100,6 @@ RecordedReplicate read_record(const fs::path& directory, const std::string& name
   return with_remedy([&] {
     auto json = parse_sealed(expect_present(file, [&] { return read_result(file); }), file);
     auto replicate = recorded(std::move(json), file, name);
-    check_measures({replicate.record, file});
     if (const auto digest = result_digest(replicate.record); digest != replicate.summary.result_digest)
       throw InputError(
           {file, "/result_digest", "the record was changed: its result does not match its digest", digest, ""});

@@ -11,6 +11,8 @@ namespace isojam {
 
 inline constexpr std::string_view table_schema = "isojam.tables.v2";
 
+void describe(Fields& field, Row& row);
+void describe(Fields& field, Table& table);
 /// The content of tables.json.
 Json to_json(const Table& table);
 /// One row in tables.json.

@@ -48,7 +48,7 @@ TEST(CohesionMeasure, RecordsTheDensityAtZeroPressure) {
   const auto& outcome = outcome_of(1e-4);
   ASSERT_FALSE(outcome.failure) << outcome.failure->why;
   const Json record = test::record_on_disk(outcome);
-  EXPECT_EQ(test::violations("replicate", record), "");
+  EXPECT_EQ(test::violations("record", record), "");
   const double density = outcome.jam.states.front().density();
   std::printf("phi_0 %.4f, Z %.2f, Z_grown %.2f\n", density,
               record.at("/nearest/contacts/Z"_json_pointer).get<double>(),
@@ -67,7 +67,7 @@ TEST(CohesionMeasure, RecordsTheDensityAtZeroPressure) {
 TEST(CohesionMeasure, IsTheSameFromTheRecord) {
   const auto& outcome = outcome_of(1e-4);
   const Json record = test::record_on_disk(outcome);
-  const JamResult again = restored_jam({record, "record.json"}, outcome.jam.states, outcome.spec);
+  const JamResult again = restored_jam(read_record_document(record, "record.json"), outcome.jam.states, outcome.spec, "record.json");
   EXPECT_EQ(again.status, JamStatus::zero_pressure);
   for (const auto what : outcome.spec.measures)
     EXPECT_EQ(measure(what, again, measure_options(outcome.spec)).states, outcome.measured.at(what).states);
@@ -95,11 +95,11 @@ TEST(CohesionMeasure, IsAbsentWithoutCohesion) {
   const auto& outcome = outcome_of(0);
   ASSERT_FALSE(outcome.failure) << outcome.failure->why;
   const Json record = test::record_on_disk(outcome);
-  EXPECT_EQ(test::violations("replicate", record), "");
+  EXPECT_EQ(test::violations("record", record), "");
   EXPECT_FALSE(record.contains("phi_0"));
   EXPECT_FALSE(record.at("spec").at("protocol").contains("cohesion"));
   for (const char* key : {"Z_grown", "tension", "under_tension"})
-    EXPECT_FALSE(record.at("nearest").at("contacts").contains(key)) << key;
+    EXPECT_FALSE(record.at("states").at(0).at("contacts").contains(key)) << key;
 }
 
 TEST(CohesionMeasure, RecordsCycles) {
@@ -108,7 +108,7 @@ TEST(CohesionMeasure, RecordsCycles) {
   const Json record = test::record_on_disk(outcome);
   EXPECT_EQ(record.at("cycles").size(), 2U);
   EXPECT_EQ(record.at("spec").at("protocol").at("cycles"), 2);
-  const JamResult again = restored_jam({record, "record.json"}, outcome.jam.states, outcome.spec);
+  const JamResult again = restored_jam(read_record_document(record, "record.json"), outcome.jam.states, outcome.spec, "record.json");
   ASSERT_EQ(again.cycles.size(), 2U);
   PackingEnergy energy;
   for (std::size_t k = 0; k < 2; ++k) {

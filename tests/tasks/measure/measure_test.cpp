@@ -124,7 +124,7 @@ TEST(Measure, FillsTheRecordOfAJammedPacking) {
   const auto outcome = measured_outcome(jammed());
   const auto record = test::record_on_disk(outcome);
   expect_recorded(record, outcome);
-  EXPECT_EQ(violations("replicate", record), "");
+  EXPECT_EQ(violations("record", record), "");
   EXPECT_EQ(unexplained(record), "");
   const auto summary = summarise_record(record, "record");
   ASSERT_EQ(summary.states.size(), jammed().states.size());
@@ -132,7 +132,7 @@ TEST(Measure, FillsTheRecordOfAJammedPacking) {
     const auto& quantity = all_quantities()[i];
     // This packing is not a mixture, and has no cohesion.
     if (quantity.group.name == "kinds of a mixture" || quantity.cohesive) continue;
-    const auto& place = quantity.of == Quantity::Of::state ? record.at("nearest") : record;
+    const auto& place = quantity.of == Quantity::Of::state ? test::nearest_of(record) : record;
     const Json::json_pointer pointer{std::string(quantity.pointer)};
     ASSERT_TRUE(place.contains(pointer)) << quantity.name;
     EXPECT_EQ(summary.values[i].has_value(), !place.at(pointer).is_null()) << quantity.name;
@@ -334,7 +334,7 @@ TEST(Measure, DegenerateStatesHaveValuesOrReasons) {
     SCOPED_TRACE(name);
     for (const auto& [part, json] : parts_of(outcome)) EXPECT_EQ(error_of(part, json), "");
     expect_recorded(record, outcome);
-    EXPECT_EQ(violations("replicate", record), "") << name;
+    EXPECT_EQ(violations("record", record), "") << name;
     EXPECT_EQ(unexplained(record), "") << name;
     const auto& state = record.at("states").at(0);
     const auto text = state.dump();

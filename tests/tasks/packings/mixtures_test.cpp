@@ -131,9 +131,9 @@ TEST(Mixtures, AreRecordedDrawnAndExported) {
   const auto records = test::files_below(directory / "r" / "records");
   const auto shapes = Json::parse(records.at("cube_0.5+tetrahedron_0.5-N96-r0000.json")),
              sizes = Json::parse(records.at("octahedron_0.5+octahedronx1.4_0.5-N96-r0000.json"));
-  EXPECT_EQ(test::violations("replicate", shapes), "");
-  EXPECT_EQ(test::violations("replicate", sizes), "");
-  const auto& state = shapes.at("nearest");
+  EXPECT_EQ(test::violations("record", shapes), "");
+  EXPECT_EQ(test::violations("record", sizes), "");
+  const auto& state = test::nearest_of(shapes);
   const auto& numbers = state.at("contacts");
   EXPECT_EQ(numbers.at("shape_pairs").size(), 3U);
   long contacts = 0;
@@ -142,9 +142,9 @@ TEST(Mixtures, AreRecordedDrawnAndExported) {
   EXPECT_NEAR((numbers.at("kind_1").at("Z").get<double>() + numbers.at("kind_2").at("Z").get<double>()) / 2,
               numbers.at("Z").get<double>(), 1e-12);
   EXPECT_TRUE(state.at("order").at("S").is_null());
-  EXPECT_FALSE(sizes.at("nearest").at("order").at("S").is_null()) << "one shape";
-  EXPECT_GT(sizes.at("nearest").at("contacts").at("kind_2").at("Z"),
-            sizes.at("nearest").at("contacts").at("kind_1").at("Z"))
+  EXPECT_FALSE(test::nearest_of(sizes).at("order").at("S").is_null()) << "one shape";
+  EXPECT_GT(test::nearest_of(sizes).at("contacts").at("kind_2").at("Z"),
+            test::nearest_of(sizes).at("contacts").at("kind_1").at("Z"))
       << "the larger ones touch more";
 
   const auto table = test::isojam({"aggregate", "r", "--format", "json"}, directory.path());

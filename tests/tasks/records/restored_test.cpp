@@ -40,44 +40,10 @@ TEST(Restored, GivesTheSameRecordAgain) {
   const auto outcome = outcome_of(test::make_plan(manifest_measuring({"contacts"})).front());
   const auto record = test::record_on_disk(outcome);
   auto again = outcome;
-  again.jam = restored_jam({record, "record"}, outcome.jam.states, outcome.spec);
+  again.jam = restored_jam(read_record_document(record, "record"), outcome.jam.states, outcome.spec, "record");
   for (std::size_t k = 0; k < outcome.jam.path.size(); ++k)
     EXPECT_EQ(Json::diff(record.at("path").at(k), test::record_on_disk(again).at("path").at(k)).dump(), "[]") << k;
   EXPECT_EQ(make_record(again).at("result_digest"), record.at("result_digest"));
-}
-
-/// First keys of the places of a measure's quantities, in their order.
-std::vector<std::string> members(Measure what, Quantity::Of of) {
-  std::vector<std::string> names;
-  for (const auto& quantity : all_quantities()) {
-    const auto name = quantity.pointer.substr(1, quantity.pointer.find('/', 1) - 1);
-    if (quantity.measure == what && quantity.of == of && std::find(names.begin(), names.end(), name) == names.end())
-      names.push_back(name);
-  }
-  return names;
-}
-
-TEST(Restored, MissingValuesHaveTheirReasons) {
-  auto outcome = outcome_of(test::make_plan(manifest_measuring({"contacts"})).front());
-  int absent = 0;
-  for (const auto what : all_measures) {
-    if (what == Measure::contacts) continue;
-    auto& measured = outcome.measured[what];
-    Json state;
-    put_absent(state, std::string(to_string(what)), "none of " + std::string(to_string(what)));
-    measured.states.assign(outcome.jam.states.size(), state);
-    for (const auto& name : members(what, Quantity::Of::replicate)) {
-      put_absent(measured.replicate, name, "no " + name);
-      ++absent;
-    }
-  }
-  EXPECT_GT(absent, 1);
-  const auto record = test::record_on_disk(outcome);
-  for (const auto& [what, measured] : outcome.measured) {
-    const auto found = recorded_measurement(what, record);
-    EXPECT_EQ(Json(found.states).dump(), Json(measured.states).dump()) << to_string(what);
-    EXPECT_EQ(found.replicate.dump(), measured.replicate.dump()) << to_string(what);
-  }
 }
 
 TEST(Restored, NothingIsAddedIfTheRecordDiffers) {

@@ -76,7 +76,7 @@ TEST(Store, PackingsConformToTheirSchema) {
     file["replicate"] = "cube-N60-r0000";
     file.update(to_json(packing));
     EXPECT_EQ(test::violations("packing", file), "");
-    for (const auto* needed : {"positions_low", "orientations", "phi", packing.cell.is_cube() ? "side" : "cell_low",
+    for (const auto* needed : {"positions_low", "orientations", "density", packing.cell.is_cube() ? "side" : "cell_low",
                                packing.solids.is_uniform() ? "solid" : "size"}) {
       auto without = file;
       without.erase(needed);

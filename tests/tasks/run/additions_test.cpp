@@ -102,7 +102,7 @@ TEST_F(Adding, GivesTheRecordsOfARunWithAllMeasures) {
     EXPECT_EQ(added[0].at("measures"), Json({"order", "clusters", "modes", "moduli", "rigidity"}));
     EXPECT_EQ(added[0].at("before").at("result_digest"),
               parse_json(before.at("records/" + name + ".json"), name).at("result_digest"));
-    EXPECT_EQ(test::violations("replicate", now), "");
+    EXPECT_EQ(test::violations("record", now), "");
   }
 }
 

@@ -89,15 +89,15 @@ TEST_F(Batch, RecordsContainPlausibleValues) {
   for (const auto& [name, content] : only(results(), "records/")) {
     const auto record = parse_json(content, name);
     ASSERT_EQ(record.at("status"), "done") << content;
-    const auto& nearest = record.at("nearest");
+    const auto& nearest = test::nearest_of(record);
     const double phi_j = record.at("phi_j").at("phi_j").get<double>();
     EXPECT_GT(phi_j, 0.6) << name;
     EXPECT_LT(phi_j, 0.8) << name;
     EXPECT_GT(nearest.at("contacts").at("Z").get<double>(), 5) << name;
     EXPECT_LT(nearest.at("contacts").at("Z").get<double>(), 12) << name;
     double least = 1;
-    for (const auto& state : record.at("states")) least = std::min(least, state.at("phi").get<double>());
-    EXPECT_EQ(nearest.at("phi").get<double>(), least) << name;
+    for (const auto& state : record.at("states")) least = std::min(least, state.at("density").get<double>());
+    EXPECT_EQ(nearest.at("density").get<double>(), least) << name;
 
     const auto packing = parse_json(only(results(), "packings/" + name.substr(8)).begin()->second, name);
     const double side = packing.at("side").get<double>();
@@ -223,7 +223,7 @@ TEST_F(Batch, FailedReplicatesAreRecordedAndCounted) {
   int failed = 0;
   for (const auto& [name, content] : only(files_below(here_ / "results"), "records/")) {
     const auto record = parse_json(content, name);
-    EXPECT_EQ(test::violations("replicate", record), "") << name;
+    EXPECT_EQ(test::violations("record", record), "") << name;
     if (record.at("status") != "failed") continue;
     ++failed;
     EXPECT_EQ(record.at("failure").at("where"), "jam");

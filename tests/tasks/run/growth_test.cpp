@@ -50,7 +50,7 @@ TEST_F(Growth, MeasuresCanChangeBeforeTheFirstRecord) {
   more["measure"] = {"contacts", "order"};
   const auto changed = run(more);
   EXPECT_EQ(changed.exit_code, 0) << changed.err;
-  for (const auto& name : names("r")) EXPECT_TRUE(record("r", name).at("nearest").contains("order")) << name;
+  for (const auto& name : names("r")) EXPECT_TRUE(test::nearest_of(record("r", name)).contains("order")) << name;
   more["measure"] = {"contacts", "order", "clusters"};
   EXPECT_EQ(run(more).exit_code, 65) << "there are records now";
 }
@@ -93,7 +93,7 @@ TEST_F(Growth, KeepsAddedMeasures) {
   const auto grown = run(manifest);
   ASSERT_EQ(grown.exit_code, 0) << grown.err;
   EXPECT_EQ(names("r").size(), 6U);
-  for (const auto& name : names("r")) EXPECT_TRUE(record("r", name).at("nearest").contains("order")) << name;
+  for (const auto& name : names("r")) EXPECT_TRUE(test::nearest_of(record("r", name)).contains("order")) << name;
   EXPECT_EQ(isojam({"measure", "r", "--add", "clusters"}, here_.path()).exit_code, 0);
 }
 

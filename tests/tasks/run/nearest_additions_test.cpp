@@ -55,10 +55,10 @@ TEST_F(AddingToNearest, GivesTheValuesOfARunWithAllMeasures) {
     EXPECT_EQ(added.at("nearest_only"), Json({"modes", "moduli", "rigidity"}));
     EXPECT_EQ(added.at("phi_j"), expected.at("phi_j"));
     for (const std::string measure : {"contacts", "modes", "moduli", "rigidity"})
-      EXPECT_EQ(added.at("nearest").at(measure), expected.at("nearest").at(measure)) << name << " " << measure;
+      EXPECT_EQ(test::nearest_of(added).at(measure), test::nearest_of(expected).at(measure)) << name << " " << measure;
     EXPECT_TRUE(added.at("states").front().contains("contacts"));
     EXPECT_FALSE(added.at("states").front().contains("modes")) << "only the nearest state is stored";
-    EXPECT_EQ(test::violations("replicate", added), "");
+    EXPECT_EQ(test::violations("record", added), "");
   }
   const auto states = isojam({"export", "few", "all", "--format", "states"}, here_.path());
   EXPECT_NE(states.out.find("omega_l: only the state nearest jamming was measured"), std::string::npos);
@@ -80,14 +80,14 @@ TEST_F(AddingToNearest, RelaxesASaddle) {
   int moved = 0;
   for (const auto& name : names()) {
     const auto now = record("few", name);
-    const auto& nearest = now.at("nearest");
+    const auto& nearest = test::nearest_of(now);
     const bool is_moved = nearest.at("descents") > 0;
     moved += is_moved;
     EXPECT_EQ(nearest.at("modes").at("negative"), 0) << name;
     const auto packing = read_sealed((here_ / "few" / "packings" / (name + ".json")).string());
     EXPECT_EQ(packing.at("result_digest") == now.at("result_digest"), is_moved) << name;
     EXPECT_EQ(now.at("states").front().at("contacts"), before.at(name).at("states").front().at("contacts"));
-    EXPECT_EQ(nearest.at("contacts") == before.at(name).at("nearest").at("contacts"), !is_moved) << name;
+    EXPECT_EQ(nearest.at("contacts") == test::nearest_of(before.at(name)).at("contacts"), !is_moved) << name;
   }
   EXPECT_GT(moved, 0) << "no nearest state is a saddle: choose another seed";
   EXPECT_EQ(isojam({"status", "few"}, here_.path()).exit_code, 0);

@@ -132,6 +132,8 @@ Json without_checksum(Json document) {
   return document;
 }
 
+const Json& nearest_of(const Json& record) { return record.at("states").at(record.at("nearest").get<std::size_t>()); }
+
 Json record_on_disk(const Outcome& outcome) { return parse_sealed(sealed(make_record(outcome)), "record"); }
 
 Json tiny_manifest() {

@@ -77,6 +77,8 @@ std::vector<ReplicateSpec> make_plan(const Manifest& manifest);
 Json without_checksum(Json document);
 
 /// The record of an outcome as it is read from its file.
+/// The state nearest jamming of a record.
+const Json& nearest_of(const Json& record);
 Json record_on_disk(const Outcome& outcome);
 
 /// Artificial contacts with the contact number Z = z, for which both fits gave a cut-off.
