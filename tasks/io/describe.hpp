@@ -111,6 +111,9 @@ struct Many {
   std::function<MemberRef()> example;                                     ///< an element with default values
   std::size_t least = 0, most = std::numeric_limits<std::size_t>::max();  ///< allowed numbers of elements
   bool all_different = false;                                             ///< true if no two elements may be equal
+  /// Only for lists of numbers: reads all of them, or returns false if one is not an allowed number. Long lists would
+  /// take too long if a reference were made to each element.
+  std::function<bool(const Json& list, const std::optional<Range>& allowed)> numbers = nullptr;
 };
 struct Maybe {
   std::function<bool()> has;
@@ -303,10 +306,27 @@ struct Kind {
   }
 };
 template <class T>
+bool read_numbers(std::vector<T>& numbers, const Json& list, const std::optional<Range>& allowed) {
+  const Range range = allowed.value_or(std::integral<T> ? count_range : any_number);
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const Json& value = list[k];
+    if (std::integral<T> ? !value.is_number_integer() : !value.is_number()) return false;
+    const auto number = value.get<double>();
+    if (!range.contains(number) || number > static_cast<double>(std::numeric_limits<T>::max())) return false;
+    numbers[k] = value.get<T>();
+  }
+  return true;
+}
+template <class T>
 struct Kind<std::vector<T>> {
   static MemberRef of(std::vector<T>& member) {
-    return Many{[&member] { return member.size(); }, [&member](std::size_t size) { member.resize(size); },
-                [&member](std::size_t k) { return ref_to(member[k]); }, example_of<T>};
+    Many many{[&member] { return member.size(); }, [&member](std::size_t size) { member.resize(size); },
+              [&member](std::size_t k) { return ref_to(member[k]); }, example_of<T>};
+    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>)
+      many.numbers = [&member](const Json& list, const std::optional<Range>& allowed) {
+        return read_numbers(member, list, allowed);
+      };
+    return many;
   }
 };
 template <class T, std::size_t n>

@@ -45,7 +45,7 @@ std::string pretty(const Json& value) {
 
 std::string compact(const Json& value) { return value.dump(); }
 
-Json parsed(std::string_view text) { return Json::parse(text); }
+Json parsed(std::string_view text, bool throws) { return Json::parse(text, nullptr, throws); }
 
 void put_number(Json& object, const std::string& key, double value) {
   if (std::isfinite(value)) {

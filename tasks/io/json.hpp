@@ -20,8 +20,9 @@ std::string pretty(const Json& value);
 /// The text of a value on one line.
 std::string compact(const Json& value);
 
-/// Parses a text. Throws Json::parse_error if it is not JSON.
-Json parsed(std::string_view text);
+/// Parses a text. If it is not JSON, throws Json::parse_error, or returns a value that is_discarded() if `throws` is
+/// false. Other sources do not call Json::parse(), whose code would then be compiled in each of them.
+Json parsed(std::string_view text, bool throws = true);
 
 /// Sets object[key] to a number. JSON has no NaN and no infinity: for these, it sets object[key] to null, and
 /// object[key + "_reason"] to "not a number" or "infinite".

@@ -35,7 +35,7 @@ void check_parameter(const JsonPlace& place, const std::string& name, const Json
 /// Value of a parameter from its text on the command line.
 Json value_of(const std::string& word, const Parameter& parameter) {
   if (std::holds_alternative<Choice>(parameter.field.member)) return word;
-  auto value = Json::parse(word, nullptr, false);
+  auto value = parsed(word, false);
   return value.is_discarded() ? Json(word) : value;
 }
 

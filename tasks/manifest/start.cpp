@@ -26,7 +26,7 @@ StartFile read_file_place(const JsonPlace& place) {
   const auto whole = std::filesystem::absolute(path).lexically_normal().string();
   // The path of the manifest may contain bytes that are not allowed in JSON.
   constexpr auto ignored = Json::error_handler_t::ignore;
-  if (Json::parse(Json(whole).dump(-1, ' ', false, ignored)) != Json(whole))
+  if (parsed(Json(whole).dump(-1, ' ', false, ignored)) != Json(whole))
     place.refuse_with_remedy("the path is not valid UTF-8, so records could not name it",
                              "rename the file or its folder");
   return {whole, -1, "", {}};

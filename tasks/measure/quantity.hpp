@@ -31,7 +31,6 @@ struct Quantity {
   bool proportion = false;                        ///< true if each value is 0 or 1, so that the mean is a proportion
   int kinds = 1;          ///< smallest number of kinds of particles for which a packing has the quantity
   bool cohesive = false;  ///< true if only packings with cohesion at zero pressure have the quantity
-  std::string_view meaning = "";
 };
 
 /// Groups that are used in several source files.

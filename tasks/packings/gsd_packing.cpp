@@ -24,7 +24,7 @@ Eigen::Matrix3d cell_of(const std::vector<double>& box) {
 /// The shape of a type. A text such as "" or "{}" describes no shape.
 void read_shape(const std::string& text, ForeignPacking::Type& type) {
   if (text.find_first_not_of(" \t\n") == std::string::npos) return;
-  const auto shape = Json::parse(text, nullptr, false);
+  const auto shape = parsed(text, false);
   if (shape.is_null() || (shape.is_object() && shape.empty())) return;
   if (!shape.is_object()) {
     type.foreign_shape = "that is not a JSON object";

@@ -61,10 +61,10 @@ void describe_result(Fields& field, JamResult& result, const ReplicateSpec& spec
                         })});
   field("state_steps", result.state_steps, "Index in `path` of the step of each state.");
   const auto state = [&spec](Packing& packing) { return packing_of(packing, spec); };
-  field.list.push_back(
-      {"states", "Packings of the decompression so far.",
-       Many{[&result] { return result.states.size(); }, [&result, &any](std::size_t size) { result.states.resize(size, any); },
-            [&result, state](std::size_t k) { return MemberRef(state(result.states[k])); }, nullptr, std::nullopt}});
+  field.list.push_back({"states", "Packings of the decompression so far.",
+                        Many{[&result] { return result.states.size(); },
+                             [&result, &any](std::size_t size) { result.states.resize(size, any); },
+                             [&result, state](std::size_t k) { return MemberRef(state(result.states[k])); }, nullptr}});
   field.list.push_back(
       {"cycles", "Training cycles so far.", list_of(result.cycles, [state, &any](Fields& inner, Cycle& cycle) {
          inner("energy_per_particle", cycle.energy_per_particle, "As in a record.");

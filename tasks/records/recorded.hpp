@@ -53,7 +53,6 @@ void check_companions(const std::filesystem::path& directory, const RecordedRepl
 Json read_state_file_of(const std::filesystem::path& directory, const RecordedReplicate& replicate,
                         const std::string& folder);
 
-
 /// Throws FileError if the directory does not exist or is not a directory. The text of the error is the same for every
 /// command.
 void expect_directory(const std::filesystem::path& directory);

@@ -278,7 +278,7 @@ void describe(Fields& field, Row& row) {
        "Estimates at fixed values of Δφ, in descending order of Δφ. The value of a replicate is "
        "interpolated between its two states around Δφ, linearly in ln Δφ. A replicate has no value at a "
        "Δφ outside the range of its states. If no replicate has a value, the quantity is left out.",
-       Many{[&row] { return row.series.size(); }, nullptr, point, example, std::nullopt}});
+       Many{[&row] { return row.series.size(); }, nullptr, point, example}});
 }
 
 void describe(Fields& field, Table& table) {
