@@ -106,7 +106,7 @@ struct JamOptions {
   MinimiseOptions minimise;
 };
 
-/// Stages of the protocol. `consolidation` is compression, and `expansion` is decompression.
+/// Stages of the protocol: compression and decompression.
 enum class JamStage { consolidation, expansion };
 template <>
 inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::consolidation, "compression"},

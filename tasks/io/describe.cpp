@@ -173,8 +173,7 @@ std::size_t sized_by_keys(const JsonPlace& object, const Many& list, const std::
 
 bool can_be_absent(const FieldEntry& field) {
   const auto* const maybe = std::get_if<Maybe>(&field.member);
-  const auto* const custom = std::get_if<Custom>(&field.member);
-  return field.presence != Presence::always || (maybe && !maybe->reason) || (custom && custom->fields);
+  return field.presence != Presence::always || (maybe && !maybe->reason);
 }
 
 bool can_be_null(const FieldEntry& field, const MemberRef& member) {

@@ -73,15 +73,6 @@ struct Column {
   int kinds = 1;
   bool cohesive = false;  ///< true if only packings with cohesion at zero pressure have the quantity
 };
-bool proportion = false;  ///< true if each value is 0 or 1, so that the mean is a proportion
-/// smallest number of kinds of particles for which a packing has the quantity
-int kinds = 1;
-bool cohesive = false;  ///< true if only packings with cohesion at zero pressure have the quantity
-/// Meaning among all quantities, if that of the field is clear only inside its object.
-std::string meaning = {};
-/// Quantities of a group are sorted by this number; those with the same number have the order of the file.
-int place = 0;
-};
 
 class Fields;
 template <class T>
@@ -129,7 +120,7 @@ struct Custom {
   std::function<void(const JsonPlace&)> read;
   Json schema = nullptr;
   std::string kind = "";  ///< the allowed values in words, for the page of fields
-  /// fields of the value, which then needs no schema; the value is an object that can be absent
+  /// fields of the value, if it is an object; it then needs no schema
   std::function<void(Fields&)> fields = nullptr;
 };
 

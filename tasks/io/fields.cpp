@@ -27,7 +27,6 @@ Core core_of(const FieldEntry& field) {
     core.member = std::move(inner);
   }
   if (const auto* const custom = std::get_if<Custom>(&core.member); custom && custom->fields) {
-    core.optional = true;
     MemberRef inner = Nested{custom->fields};
     core.member = std::move(inner);
   }

@@ -115,8 +115,8 @@ void describe(Fields& field, ReplicateSpec& spec) {
           .range({0, 1, true})
           .finite();
       of("stage", start.stage,
-         "First stage of the protocol. `consolidation`: The packing was first compressed to the target energy. "
-         "`expansion`: The packing was treated as jammed and only decompressed.");
+         "First stage of the protocol. `compression`: The packing was first compressed to the target energy. "
+         "`decompression`: The packing was treated as jammed and only decompressed.");
     }};
   };
   field.member("start",

@@ -146,8 +146,8 @@ void describe(Fields& field, Start& start) {
       .range({0, 1, true})
       .finite();
   field("stage", start.stage,
-        "First stage of the protocol. `consolidation`: The packing is first compressed to the target energy. "
-        "`expansion`: The packing is treated as jammed and only decompressed.")
+        "First stage of the protocol. `compression`: The packing is first compressed to the target energy. "
+        "`decompression`: The packing is treated as jammed and only decompressed.")
       .optional();
   field
       .custom("types", types_field(start),

@@ -46,7 +46,7 @@ Many list_of(std::vector<T>& list, const DescribeOne& describe_one) {
           [&list, describe_one](std::size_t k) {
             return MemberRef(Nested{[&one = list[k], describe_one](Fields& field) { describe_one(field, one); }});
           },
-          nullptr, std::nullopt};
+          nullptr};
 }
 
 /// `any` is a packing that new elements of lists have until they are read.

@@ -15,7 +15,7 @@ void add_json(Fields& field, Json& measured, const Fields& fields) {
     const auto* const maybe = std::get_if<Maybe>(&entry.member);
     const MemberRef member = maybe ? maybe->example() : entry.member;
     value.fields = std::get<Nested>(member).describe;
-    field.custom(entry.key, std::move(value), entry.meaning);
+    field.custom(entry.key, std::move(value), entry.meaning).optional();
   }
 }
 
@@ -51,6 +51,22 @@ void describe_timing(Fields& field, Timing& timing, std::map<std::string, double
     }
   };
   field.nested("stages", describe_stages, "CPU time of the protocol and of each measure.");
+}
+
+/// The specification remains JSON in a record. It is written by to_json(const ReplicateSpec&).
+void describe_spec(Fields& field) {
+  static ReplicateSpec example;
+  const auto add = [&](std::string_view key, const Json& type, std::string_view meaning) -> FieldEntry& {
+    return field.custom(key, {[] { return Json(nullptr); }, nullptr, {{"type", type}}, type.get<std::string>()},
+                        meaning);
+  };
+  add("solid", "string", "Name of the solid, or of the mixture.");
+  add("vertices", "array",
+      "Vertices of a user-defined solid, before the solid is scaled to unit volume; absent for a named solid or a "
+      "mixture.")
+      .optional();
+  add("mixture", "array", "Kinds of particles of a mixture; absent if all particles are equal.").optional();
+  describe(field, example);
 }
 
 }  // namespace
@@ -145,10 +161,8 @@ void describe(Fields& field, Record& record) {
         "field.");
   field("provenance", record.provenance, "The build of isojam, the manifest and the seed that produced the record.");
   field.custom("spec",
-               {[&record] { return record.spec; },
-                [&record](const JsonPlace& place) { record.spec = place.value(); },
-                {{"type", "object"}},
-                "object"},
+               {[&record] { return record.spec; }, [&record](const JsonPlace& place) { record.spec = place.value(); },
+                nullptr, "", describe_spec},
                "Settings of the replicate.");
   field("status", record.status,
         "Result of the replicate. `done`: φ_J and all requested measures were computed. `failed`: φ_J or a requested "

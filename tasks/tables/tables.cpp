@@ -87,7 +87,7 @@ void add_object(Fields& field, std::string_view key, bool is_there, const std::f
     if (is_there) describe_it(inner);
     return is_there ? written(inner) : Json(nullptr);
   };
-  field.custom(key, {write, nullptr, nullptr, "", describe_it}, meaning);
+  field.custom(key, {write, nullptr, nullptr, "", describe_it}, meaning).optional();
 }
 
 void add_estimate(Fields& field, std::string_view key, Estimate& estimate, bool is_there, std::string_view meaning) {
