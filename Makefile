@@ -145,12 +145,12 @@ test:
 	cmake --build $(BUILD) -j $(JOBS)
 	ctest --test-dir $(BUILD) -j $(JOBS) --output-on-failure --no-tests=error --timeout $(TIMEOUT)
 
-# The pages and a reference of the engine's headers, as a site: nothing is compiled. A link that leads nowhere is an error,
+# The pages, the fields of files and a reference of the engine's headers, as a site. A link that leads nowhere is an error,
 # and so is a public declaration without a comment.
-docs:
+docs: build
 	$(call install,$(DOCS_PACKAGES))
 	@rm -rf $(BUILD)/docs && mkdir -p $(BUILD)/docs/source
-	$(PYTHON) -B docs/site/gather.py . $(BUILD)/docs
+	$(PYTHON) -B docs/site/gather.py . $(BUILD)/docs $(BUILD)/isojam
 	PUBLIC_HEADERS="$$(sed -n '/FILE_SET HEADERS BASE/,/)$$/s|^  \(.*\.hpp\).*|engine/\1|p' engine/CMakeLists.txt | tr '\n' ' ')" \
 	  PYTHON=$(PYTHON) DOCS_BUILD=$(BUILD)/docs doxygen docs/site/Doxyfile
 	mkdocs build --quiet --strict -f $(BUILD)/docs/mkdocs.yml

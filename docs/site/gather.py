@@ -1,4 +1,4 @@
-"""gather.py SOURCE BUILD: the pages as MkDocs takes them, in BUILD/source, and its configuration beside that.
+"""gather.py SOURCE BUILD PROGRAM: the pages as MkDocs takes them, in BUILD/source, and its configuration beside that.
 
 In the tree pages link to each other and to files as GitHub shows them. Here each goes to the place that it has in the
 site, with all that it links to, and its links go along; a link to what is not there is an error.
@@ -8,12 +8,18 @@ import os
 import pathlib
 import re
 import shutil
+import subprocess
 import sys
 
 from pages import lines_of, pages
 
 # The first page, and the one that lists the others; the rest keep their names, those of docs/ without that folder.
 PLACES = {"README.md": "index.md", "docs/index.md": "pages.md"}
+FIELDS = """# Fields
+
+The program prints this page with `isojam fields --markdown`, from the descriptions with which it writes and reads files.
+
+"""
 REFERENCE = """# Headers of the engine
 
 [All declarations](api/namespaceisojam.html), [types](api/annotated.html) and [files](api/files.html) of the public
@@ -61,7 +67,7 @@ def rewritten(root, page, needed):
     return "\n".join(lines)
 
 
-def gather(root, build):
+def gather(root, build, program):
     source = build / "source"
     needed, done = set(), set()
     texts = {page.relative_to(root): None for page in pages(root)}
@@ -75,6 +81,8 @@ def gather(root, build):
         (source / place_of(file)).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(root / file, source / place_of(file))
     (source / "reference.md").write_text(REFERENCE, encoding="utf-8")
+    fields = subprocess.run([program, "fields", "--markdown"], capture_output=True, text=True, check=True).stdout
+    (source / "fields.md").write_text(FIELDS + fields, encoding="utf-8")
     shutil.copy(root / "docs/site/extra.css", source)
     for name in ("mkdocs.yml", "hooks.py"):
         shutil.copy(root / "docs/site" / name, build)
@@ -82,4 +90,4 @@ def gather(root, build):
 
 
 if __name__ == "__main__":
-    gather(*(pathlib.Path(path).resolve() for path in sys.argv[1:3]))
+    gather(*(pathlib.Path(path).resolve() for path in sys.argv[1:4]))
