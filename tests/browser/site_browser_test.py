@@ -1,4 +1,4 @@
-"""Tests the documentation site that MkDocs builds, in Chromium and opened from disk. usage: site_browser_test.py SOURCE
+"""Tests the documentation site that MkDocs builds, in Chromium and opened from disk. usage: site_browser_test.py SOURCE PROGRAM
 
 Doxygen does not run; empty files replace its pages.
 """
@@ -16,7 +16,7 @@ import browser as browsers
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
+SOURCE, PROGRAM = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
 sys.path.insert(0, str(SOURCE / "docs/site"))
 from gather import REFERENCE, gather  # noqa: E402
 
@@ -34,7 +34,7 @@ class Site(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="isojam-site-")
         cls.addClassCleanup(folder.cleanup)
         root = pathlib.Path(folder.name).resolve()
-        gather(SOURCE, root)
+        gather(SOURCE, root, PROGRAM)
         for page in re.findall(r"api/\w+\.html", REFERENCE):
             (root / "source" / page).parent.mkdir(exist_ok=True)
             (root / "source" / page).touch()

@@ -10,7 +10,7 @@ import unittest
 
 import yaml
 
-SOURCE = pathlib.Path(sys.argv[1]).resolve()
+SOURCE, PROGRAM = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
 sys.path.insert(0, str(SOURCE / "docs/site"))
 from doxygen_filter import filtered  # noqa: E402
 from gather import gather, rewritten  # noqa: E402
@@ -103,11 +103,11 @@ class Site(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.build = pathlib.Path(folder.name).resolve()
-        gather(SOURCE, cls.build)
+        gather(SOURCE, cls.build, PROGRAM)
         cls.pages = sorted((cls.build / "source").rglob("*.md"))
 
     def test_links_go_along(self):
-        self.assertEqual(len(self.pages), len(pages(SOURCE)) + 1)
+        self.assertEqual(len(self.pages), len(pages(SOURCE)) + 2)
         followed = 0
         for page in self.pages:
             for number, target in links(page.read_text(encoding="utf-8")):
