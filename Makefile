@@ -156,6 +156,17 @@ docs: build
 	mkdocs build --quiet --strict -f $(BUILD)/docs/mkdocs.yml
 	@echo '$(BUILD)/docs/site/index.html'
 
+# The files in schemas/, from the descriptions of the program.
+.PHONY: schemas extending
+schemas: build
+	@for name in $(SCHEMAS); do $(BUILD)/isojam schema $$name -o schemas/$$name.schema.json || exit 1; done
+SCHEMAS = manifest record tables
+
+# The diffs of docs/developing.md, in a copy of the sources.
+extending:
+	$(call install,$(PROGRAM_PACKAGES) python3 python3-numpy python3-pandas)
+	$(PYTHON) -B tests/docs/extending.py . $(BUILD)-extending
+
 # The same bytes from g++ and clang, with and without AVX2: three more builds, in folders of their own. As root also the
 # build of Debian 13, whose loader runs it here with the libraries of its own root.
 REPRODUCIBLE = tests/reproducibility

@@ -8,9 +8,11 @@
 #include "tasks/io/atomic_file.hpp"
 #include "tasks/io/standard_streams.hpp"
 #include "tasks/io/usage_error.hpp"
+#include "tasks/manifest/manifest.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/records/document.hpp"
 #include "tasks/tables/fitted.hpp"
+#include "tasks/tables/tables.hpp"
 
 namespace isojam {
 namespace {
@@ -21,7 +23,9 @@ struct DocumentKind {
   Fields (*fields)();
 };
 constexpr std::array documents{
-    DocumentKind{"record", "Record of a replicate", fields_of<Record>},
+    DocumentKind{"manifest", "isojam manifest", fields_of<Manifest>},
+    DocumentKind{"record", "isojam record", fields_of<Record>},
+    DocumentKind{"tables", "isojam tables", fields_of<Table>},
 };
 
 constexpr std::size_t columns = 100;

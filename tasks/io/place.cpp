@@ -184,7 +184,7 @@ std::size_t JsonPlace::expect_entries(std::size_t most, std::string_view allowed
 
 void JsonPlace::expect_keys(std::span<const std::string_view> names,
                             const std::function<std::string(std::string_view)>& elsewhere) const {
-  expect_object(fmt::format("an object with the keys {}", quoted_list(names)));
+  if (!value_.is_object()) not_accepted(fmt::format("an object with the keys {}", quoted_list(names)));
   for (const auto& item : value_.items()) {
     const std::string_view key = item.key();
     if (std::find(names.begin(), names.end(), key) != names.end()) continue;

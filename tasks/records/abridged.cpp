@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
+#include <set>
+#include <string>
+
+#include "tasks/measure/quantity.hpp"
 
 namespace isojam {
 namespace {
@@ -11,6 +16,18 @@ std::string_view key_of(std::string_view line, std::size_t indent) {
   if (line.size() <= indent || line[indent] != '"') return "";
   const auto end = line.find('"', indent + 1);
   return line.substr(indent + 1, end == std::string_view::npos ? 0 : end - indent - 1);
+}
+
+/// All keys in the JSON pointers of quantities, and that of the histograms of angles.
+const std::set<std::string, std::less<>>& keys_of_quantities() {
+  static const auto keys = [] {
+    std::set<std::string, std::less<>> set{"angle_bins"};
+    for (const auto& quantity : all_quantities()) {
+      for (auto rest = Json::json_pointer(quantity.pointer); !rest.empty(); rest.pop_back()) set.insert(rest.back());
+    }
+    return set;
+  }();
+  return keys;
 }
 
 /// Passes the lines of a record that are kept to a text.
@@ -26,26 +43,46 @@ class Shortener {
     if (section_ == "path" && indent > 2) return;
     if (section_ == "states" && indent == 4) {
       if (line[indent] == '{') dropped_ = states_ == States::nearest && state_++ != nearest_;
-      // The comma of the last state would be wrong if only one is kept.
-      if (!dropped_ && states_ == States::nearest && line[indent] == '}') line = line.substr(0, indent + 1);
     }
-    if (dropped_) return;
+    if (dropped_ || !is_needed(line, indent)) return;
     if (is_long_list(line, indent)) {
-      text_.append(line.substr(0, line.find('[') + 1)).append(line.back() == ',' ? "]," : "]");
+      append(std::string(line.substr(0, line.find('[') + 1)) + ']', indent);
     } else {
-      text_.append(line);
+      append(line, indent);
     }
-    text_ += '\n';
   }
 
   std::string text() && { return std::move(text_); }
 
  private:
+  /// Adds a line. Commas are set anew, because neighbouring lines may have been left out.
+  void append(std::string_view line, std::size_t indent) {
+    const bool closes = indent < line.size() && (line[indent] == '}' || line[indent] == ']');
+    const char last = text_.empty() ? '{' : text_.back();
+    if (closes && last == ',') text_.pop_back();
+    if (!closes && last != ',' && last != '{' && last != '[') text_ += ',';
+    text_.append("\n").append(line);
+  }
+
+  /// Inside a state, only the keys of quantities are needed, and those of the state itself.
+  bool is_needed(std::string_view line, std::size_t indent) {
+    constexpr std::size_t state = 6;
+    if (section_ != "states" || indent <= state || kept_ != 0) return true;
+    if (unneeded_ != 0) {
+      if (indent == unneeded_) unneeded_ = 0;
+      return false;
+    }
+    const auto key = key_of(line, indent);
+    if (key.empty() || keys_of_quantities().contains(key)) return true;
+    if (line.back() == '{' || line.back() == '[') unneeded_ = indent;
+    return false;
+  }
+
   /// With one state, the nearest is the first.
   void take_nearest(std::string_view line) {
     const auto digits = line.substr(line.find(':') + 2);
     std::from_chars(digits.data(), digits.data() + digits.size(), nearest_);
-    text_.append(states_ == States::all || digits.front() == 'n' ? line : "  \"nearest\": 0,").append("\n");
+    append(states_ == States::all || digits.front() == 'n' ? line : "  \"nearest\": 0,", 2);
   }
 
   bool is_long_list(std::string_view line, std::size_t indent) {
@@ -59,6 +96,7 @@ class Shortener {
   States states_;
   std::string text_;
   std::string_view section_;  ///< key of the record's member
+  std::size_t unneeded_ = 0;  ///< indent of an object inside a state that is left out
   std::size_t kept_ = 0;      ///< indent of the histogram of angles that is being read
   long nearest_ = -1, state_ = 0;
   bool dropped_ = false;

@@ -6,12 +6,12 @@
 namespace isojam {
 namespace {
 
-/// Adds fields that remain JSON here, because tables read only single values of them.
+/// Adds fields that are written from JSON. They are not read, because tables take single values from the file's JSON.
 void add_json(Fields& field, Json& measured, const Fields& fields) {
   for (const auto& entry : fields.list) {
     Custom value;
     value.write = [&measured, key = entry.key] { return measured.contains(key) ? measured.at(key) : Json(nullptr); };
-    value.read = [&measured, key = entry.key](const JsonPlace& place) { measured[key] = place.value(); };
+    value.read = [](const JsonPlace&) {};
     const auto* const maybe = std::get_if<Maybe>(&entry.member);
     const MemberRef member = maybe ? maybe->example() : entry.member;
     value.fields = std::get<Nested>(member).describe;

@@ -54,7 +54,7 @@ struct StateRow {
   JamStep step;
   Reasoned<> delta_phi{std::nullopt, "no jamming point"};
   int index = 0;                   ///< of the step in the path
-  Json measured = Json::object();  ///< the part of each measure, under its name
+  Json measured = Json::object();  ///< the part of each measure, under its name; empty if the record was read
 };
 void describe(Fields& field, StateRow& row);
 

@@ -97,13 +97,13 @@ TEST(Replicate, AMissingEquilibriumAtZeroPressureIsNamed) {
 TEST(Replicate, StatesOutsideTheFitWindowAreFlagged) {
   const auto outside = try_with({{"fit_window", 0.02}});
   ASSERT_FALSE(outside.outcome.failure) << outside.outcome.failure->why;
-  EXPECT_EQ(flags_of(outside.outcome), std::vector<std::string>{"outside_fit_window"});
+  EXPECT_EQ(flags_of(outside.outcome), std::vector<Flag>{Flag::outside_fit_window});
   ASSERT_EQ(outside.warnings.size(), 1U);
   EXPECT_EQ(outside.warnings.front().rfind("/protocol/final_distance: ", 0), 0U) << outside.warnings.front();
 
   const auto inside = try_with(Json::object());
   ASSERT_FALSE(inside.outcome.failure) << inside.outcome.failure->why;
-  EXPECT_EQ(flags_of(inside.outcome), std::vector<std::string>{});
+  EXPECT_EQ(flags_of(inside.outcome), std::vector<Flag>{});
   EXPECT_EQ(inside.warnings, std::vector<std::string>{});
 }
 

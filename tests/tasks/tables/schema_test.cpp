@@ -177,7 +177,7 @@ TEST(RecordSchema, FailedRecordsHaveReasonsInPlaceOfResults) {
 }
 
 TEST(RecordSchema, IsGenerated) {
-  EXPECT_EQ(pretty(schema_of(fields_of<Record>(), "Record of a replicate")), pretty(test::schema("record")))
+  EXPECT_EQ(pretty(schema_of(fields_of<Record>(), "isojam record")), pretty(test::schema("record")))
       << "make it again with \"isojam schema record -o schemas/record.schema.json\"";
 }
 
