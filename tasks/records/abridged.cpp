@@ -64,10 +64,11 @@ class Shortener {
     text_.append("\n").append(line);
   }
 
-  /// Inside a state, only the keys of quantities are needed, and those of the state itself.
+  /// In the measures of a state, only the keys of quantities are needed.
   bool is_needed(std::string_view line, std::size_t indent) {
     constexpr std::size_t state = 6;
-    if (section_ != "states" || indent <= state || kept_ != 0) return true;
+    if (indent == state) in_measure_ = from_string<Measure>(key_of(line, indent)).has_value();
+    if (section_ != "states" || indent <= state || !in_measure_ || kept_ != 0) return true;
     if (unneeded_ != 0) {
       if (indent == unneeded_) unneeded_ = 0;
       return false;
@@ -99,7 +100,7 @@ class Shortener {
   std::size_t unneeded_ = 0;  ///< indent of an object inside a state that is left out
   std::size_t kept_ = 0;      ///< indent of the histogram of angles that is being read
   long nearest_ = -1, state_ = 0;
-  bool dropped_ = false;
+  bool dropped_ = false, in_measure_ = false;
 };
 
 }  // namespace

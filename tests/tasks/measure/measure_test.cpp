@@ -95,7 +95,7 @@ TEST(Measure, DescribesWhatItWritesAndNothingElse) {
   for (const auto& [part, json] : parts) EXPECT_EQ(error_of(part, json), "") << json;
   RandomStream random{5};
   const auto any = [&](std::size_t size) {
-    return std::min(static_cast<std::size_t>(random.uniform() * size), size - 1);
+    return std::min(static_cast<std::size_t>(random.uniform() * static_cast<double>(size)), size - 1);
   };
   int refused = 0;
   for (int k = 0; k < 400; ++k) {

@@ -35,8 +35,9 @@ std::vector<ReplicateSpec> plan(int replicates = 4) {
 
 RecordedReplicate recorded(const Outcome& outcome) {
   auto record = make_record(outcome);
-  auto summary = summarise_record(record, "made up");
-  return {replicate_name(outcome.spec), std::move(record), std::move(summary)};
+  auto document = read_record_document(record, "made up");
+  auto summary = summarise_record(document, record, "made up");
+  return {replicate_name(outcome.spec), std::move(record), std::move(document), std::move(summary)};
 }
 
 /// Made-up results. `change` can change every outcome before it is recorded.
