@@ -199,7 +199,6 @@ Json written(const Fields& fields) {
 }
 
 void read_into(const JsonPlace& place, const Fields& fields, Missing missing) {
-  place.expect_object("an object");
   for (const auto& removed : fields.removed)
     place.read_if_any(removed.first,
                       [&](const JsonPlace& value) { value.refuse_with_remedy("the key was removed", removed.second); });

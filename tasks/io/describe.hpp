@@ -242,10 +242,10 @@ T read(const JsonPlace& place) {
   read_into(place, object);
   return object;
 }
-/// Reads a whole document, and throws one InputError with all errors.
+/// Reads a whole document of the program, and throws one InputError with all errors.
 template <Described T>
 T read_document(const Json& document, const std::string& file) {
-  Problems problems;
+  Problems problems(false);
   T object{};
   const JsonPlace place(document, file, "", &problems);
   place.attempt([&] { read_into(place, object); });

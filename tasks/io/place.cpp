@@ -141,9 +141,8 @@ JsonPlace JsonPlace::at(const std::string& key) const {
   if (!value_.is_object()) not_accepted(fmt::format("an object with the key \"{}\"", key));
   const auto found = value_.find(key);
   const auto pointer = pointer_ + pointer_step(key);
-  // Errors are collected only in files that a user writes. A file of the program must not be completed by hand.
   if (found == value_.end())
-    throw InputError({file_, pointer, "the required key is missing", "", "", problems_ ? "add it" : ""});
+    throw InputError({file_, pointer, "the required key is missing", "", "", problems_ && problems_->of_user() ? "add it" : ""});
   return {*found, file_, pointer, problems_};
 }
 

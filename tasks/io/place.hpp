@@ -46,6 +46,9 @@ std::string unknown_name(std::string_view kind, std::string_view name, std::span
 /// later errors at the same value are consequences of it.
 class Problems {
  public:
+  /// The remedy of a missing key is to add it, except in a file of the program.
+  explicit Problems(bool of_user = true) : of_user_(of_user) {}
+  bool of_user() const { return of_user_; }
   void note(const InputError& error);
   /// Suppresses later errors at this JSON pointer, because they are consequences of an error at another pointer.
   void settle(std::string pointer) { settled_.insert(std::move(pointer)); }
@@ -57,6 +60,7 @@ class Problems {
   void refuse_any(const Json& document) const;
 
  private:
+  bool of_user_;
   std::vector<InputError::Details> found_;
   std::set<std::string> settled_;
 };

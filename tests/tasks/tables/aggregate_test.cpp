@@ -243,7 +243,7 @@ TEST(Record, WhatATableNeedsIsRequired) {
     EXPECT_EQ(said, "r.json: " + pointer + ": the required key is missing");
   }
   for (const std::string pointer :
-       {"/schema", "/spec/solid", "/spec/particles", "/status", "/phi_j/phi_j", "/nearest/contacts/Z"}) {
+       {"/schema", "/spec/solid", "/spec/particles", "/status", "/phi_j/phi_j", "/states/3/contacts/Z"}) {
     auto damaged = record;
     damaged[Json::json_pointer(pointer)] = Json::array();
     const auto said = refusal([&] { summarise_record(damaged, "r.json"); });
