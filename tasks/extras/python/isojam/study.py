@@ -92,7 +92,7 @@ class Study:
         return self._tables[series]
 
     def record(self, name: str) -> dict[str, Any]:
-        """The record of a replicate as a dict, see schemas/replicate.schema.json."""
+        """The record of a replicate as a dict, see schemas/record.schema.json."""
         file = self._file("records", name)
         record = read_sealed(file, facts.schemas["record"], self._check)
         with reading(file, _A_RECORD):
