@@ -11,7 +11,7 @@ void describe(Fields& field, RearrangementCounts& counts) {
   field("steps", counts.steps,
         "Number of decompression steps that reached the next equilibrium, or in which the solution branch ended. Steps "
         "that failed and were repeated are not counted.")
-      .column({"expansion_steps", group, "n_s"});
+      .column({"decompression_steps", group, "n_s"});
   field("particles_moved", counts.particles_moved,
         "Mean number of particles that moved in a rearrangement. Rearrangements in which the solution branch ended are "
         "left out.")

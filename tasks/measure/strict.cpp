@@ -75,7 +75,7 @@ void describe(Fields& field, Freed& freed) {
         "found along the mode. `undetermined`: The modes could not be computed or counted. `not_called`: Nothing was "
         "relaxed, because the state nearest jamming has no pressure, or its forces do not balance.");
   field("stopped", freed.stopped, "Reason for the end of the last minimisation.");
-  field("phi", freed.phi, "Density φ after the relaxation.");
+  field("density", freed.phi, "Density φ after the relaxation.");
   field("deviator", freed.deviator, meaning_of_deviator).range(not_negative);
   field("negative", freed.negative,
         "Number of negative modes of the particles and the six strains together, after the relaxation.");

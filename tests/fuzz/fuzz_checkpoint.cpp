@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     auto document = parse_json(std::string_view(reinterpret_cast<const char*>(data), size), "fuzz");
     if (document.is_object()) {
-      document["provenance"] = provenance(spec());
+      document["provenance"] = written(provenance_of(spec()));
       document["spec"] = to_json(spec());
     }
     const auto checkpoint = read_checkpoint({document, "fuzz"}, spec());

@@ -156,12 +156,12 @@ TEST(JamTest, StopsOnRequest) {
   // Interrupted during the compression, and during the decompression when some states exist.
   for (const std::size_t wanted_states : {0U, 2U}) {
     std::stop_source source;
-    std::size_t expansion_steps = 0, steps = 0;
+    std::size_t decompression_steps = 0, steps = 0;
     const JamResult result =
         jam(start_of(small, 71, options), options, source.get_token(), [&](const JamProgress& progress) {
           ++steps;
-          expansion_steps += progress.result.path.back().stage == JamStage::expansion;
-          if (wanted_states == 0 ? steps == 3 : expansion_steps == wanted_states) source.request_stop();
+          decompression_steps += progress.result.path.back().stage == JamStage::expansion;
+          if (wanted_states == 0 ? steps == 3 : decompression_steps == wanted_states) source.request_stop();
         });
     EXPECT_EQ(result.status, JamStatus::interrupted) << to_string(result.status);
     EXPECT_EQ(result.path.size(), steps) << "went on after the stop";

@@ -207,7 +207,7 @@ TEST(RecordSchema, StatesHowOftenThePackingRearranged) {
   const auto table = aggregate(summaries);
   const auto of = [&](const std::string& name) { return table.rows.at(0).estimates[*quantity_index(name)]; };
   EXPECT_EQ(of("rearrangements").mean, 1.5);
-  EXPECT_EQ(of("expansion_steps").mean, 2.5);
+  EXPECT_EQ(of("decompression_steps").mean, 2.5);
   EXPECT_EQ(of("contacts_lost").mean, 7);
   EXPECT_EQ(of("contacts_lost").n, 1) << "the other has none that led on";
   EXPECT_NE(to_text(table).find("\nrearrangements: "), std::string::npos) << to_text(table);
