@@ -38,7 +38,7 @@ class StrainStep {
   void run() {
     if (stop_.stop_requested()) {
       result_.status = JamStatus::interrupted;
-    } else if (progress_.stage == JamStage::consolidation) {
+    } else if (progress_.stage == JamStage::compression) {
       consolidate();
     } else if (ends_at_zero_pressure(options_)) {
       release_pressure();
@@ -66,7 +66,7 @@ class StrainStep {
 
   const JamStep& relax(Packing& packing, PackingEnergy& energy) {
     MinimiseOptions options = minimiser();
-    if (progress_.stage == JamStage::consolidation) {
+    if (progress_.stage == JamStage::compression) {
       options.residual = std::max(options.residual, compression_residual);
       options.unjammed_energy = std::max(options.unjammed_energy, compression_unjammed_energy);
       options.max_evaluations = options_.compression.evaluations;
@@ -135,7 +135,7 @@ class StrainStep {
     if (energy_.evaluate(bare).energy < options_.compression.target_energy * bare.size()) return;
     const JamStep& step = relax(bare);
     if (must_end(step) || !consolidated(step)) return;
-    progress_.stage = JamStage::expansion;
+    progress_.stage = JamStage::decompression;
     if (options_.cohesion_until == CohesionUntil::decompression) progress_.packing = std::move(bare);
   }
 
@@ -176,7 +176,7 @@ class StrainStep {
     const JamStep& step = relax(packing, cohesive_energy_ ? *cohesive_energy_ : energy_);
     if (must_end(step)) return;
     if (cohesive_energy_) return end_cohesive_compression();
-    if (consolidated(step)) progress_.stage = JamStage::expansion;
+    if (consolidated(step)) progress_.stage = JamStage::decompression;
   }
 
   const JamStep& last_state() const { return result_.path[static_cast<std::size_t>(result_.state_steps.back())]; }
@@ -191,7 +191,7 @@ class StrainStep {
   }
 
   /// Length of a step of decompression. If there is only one state, the next one may be nearer than final_distance.
-  double expansion_step() const {
+  double decompression_step() const {
     const double step = progress_.step_fraction * distance(), bound = step_bound();
     return bound > 0 ? std::min(step, bound) : step;
   }
@@ -206,7 +206,7 @@ class StrainStep {
     const JamStep& step = first ? first_state(next) : strained_down(next);
     if (must_end(step)) return;
     if (first && !progress_.jammed && relaxed_below_target(step)) {
-      progress_.stage = JamStage::consolidation;
+      progress_.stage = JamStage::compression;
       progress_.packing = std::move(next);
       return;
     }
@@ -223,7 +223,7 @@ class StrainStep {
     keep(std::move(next));
     const bool bracketed = result_.states.size() > 1 || options_.decompression.control == Control::density;
     if (bracketed && distance_to_jamming(result_.path.back()) <= options_.decompression.final_distance)
-      end_expansion(JamStatus::jammed);
+      end_decompression(JamStatus::jammed);
   }
 
   /// The first state of a decompression. Close to an equilibrium, Newton's method converges in a few iterations. From
@@ -263,7 +263,7 @@ class StrainStep {
   }
 
   const JamStep& released(Packing& next) {
-    const double left = 1 - expansion_step() / distance();
+    const double left = 1 - decompression_step() / distance();
     MinimiseOptions options = options_.minimise;
     options.control = control_at_pressure(options_, nearest::pow(left, 5) * last_state().pressure);
     if (!follows()) return append(next, minimise(next, energy_, options, stop_));
@@ -272,7 +272,7 @@ class StrainStep {
 
   const JamStep& strained_down(Packing& next) {
     if (options_.decompression.control == Control::pressure) return released(next);
-    const double density = next.density() - expansion_step();
+    const double density = next.density() - decompression_step();
     if (!follows()) {
       next = strained_to(next, density);
       return relax(next);
@@ -293,7 +293,7 @@ class StrainStep {
   /// equilibrium.
   void lose_branch(Packing packing) {
     result_.path.back().lost = true;
-    if (++progress_.halvings > max_halvings) return end_expansion(JamStatus::goal_not_reached);
+    if (++progress_.halvings > max_halvings) return end_decompression(JamStatus::goal_not_reached);
     progress_.packing = std::move(packing);
     progress_.lost = result_.state_steps.back();
     progress_.step_fraction /= 2;  // smaller steps from here on, because the same may happen again
@@ -305,7 +305,7 @@ class StrainStep {
     const JamStep& before = result_.path[static_cast<std::size_t>(progress_.lost)];
     const double distance = distance_to_jamming(before), strain = progress_.step_fraction * distance;
     Packing next = strained_to(progress_.packing, progress_.packing.density() + strain);
-    if (next.density() > options_.compression.max_density) return end_expansion(JamStatus::goal_not_reached);
+    if (next.density() > options_.compression.max_density) return end_decompression(JamStatus::goal_not_reached);
     const double force = mean_force_at(before.pressure, before.density);
     const JamStep& step = append(next, relax_to_equilibrium(next, force, distance, energy_, minimiser(), stop_));
     if (must_end(step)) return;
@@ -330,14 +330,14 @@ class StrainStep {
   /// Handles a step of decompression that led to no state. The next step is half as long, whichever limit determined
   /// this step. Half the fraction alone might give the same step again, which would fail again with the same bits.
   void failed(bool first) {
-    if (first || ++progress_.halvings > max_halvings) return end_expansion(JamStatus::goal_not_reached);
-    // As in expansion_step(), a bound that is not positive does not count.
+    if (first || ++progress_.halvings > max_halvings) return end_decompression(JamStatus::goal_not_reached);
+    // As in decompression_step(), a bound that is not positive does not count.
     if (const double bound = step_bound(); bound > 0)
       progress_.step_fraction = std::min(progress_.step_fraction, bound / distance());
     progress_.step_fraction /= 2;
   }
 
-  void end_expansion(JamStatus status) {
+  void end_decompression(JamStatus status) {
     if (static_cast<int>(result_.cycles.size()) < options_.cycles) return end_cycle();
     result_.status = result_.states.size() >= 2 ? status : JamStatus::not_jammed;
   }
@@ -362,11 +362,11 @@ class StrainStep {
 }  // namespace
 
 JamProgress begin_jam(Packing start, const JamOptions& options) {
-  return {std::move(start), JamStage::consolidation, options.decompression.step_fraction, 0, -1, {}};
+  return {std::move(start), JamStage::compression, options.decompression.step_fraction, 0, -1, {}};
 }
 
-JamProgress begin_expansion(Packing jammed, const JamOptions& options) {
-  return {std::move(jammed), JamStage::expansion, options.decompression.step_fraction, 0, -1, {}, true};
+JamProgress begin_decompression(Packing jammed, const JamOptions& options) {
+  return {std::move(jammed), JamStage::decompression, options.decompression.step_fraction, 0, -1, {}, true};
 }
 
 void advance(JamProgress& progress, const JamOptions& options, std::stop_token stop) {

@@ -86,7 +86,6 @@ struct Decompression {
 };
 
 /// Options of the protocol of Smith, Fisher, Alam 2011 (arXiv:1104.4933): compression, then decompression towards φ_J.
-/// The keys of manifests and records call these stages consolidation and expansion.
 struct JamOptions {
   Compression compression;      ///< options of the first stage
   Decompression decompression;  ///< options of the second stage
@@ -107,10 +106,10 @@ struct JamOptions {
 };
 
 /// Stages of the protocol: compression and decompression.
-enum class JamStage { consolidation, expansion };
+enum class JamStage { compression, decompression };
 template <>
-inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::consolidation, "compression"},
-                                                 EnumName{JamStage::expansion, "decompression"}};
+inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::compression, "compression"},
+                                                 EnumName{JamStage::decompression, "decompression"}};
 
 /// Difference between two successive states of a solution branch. It is computed for every step from one state to the
 /// next; is_rearranged() decides whether the step contains a rearrangement. On a smooth solution branch, the energy is
@@ -137,12 +136,12 @@ CellControl control_at_pressure(const JamOptions& options, double pressure);
 
 /// A strain step and the minimised state after it. Energies are in units of Y·V_p, the pressure in Y.
 struct JamStep {
-  JamStage stage = JamStage::consolidation;  ///< stage of the protocol
-  double density = 0;                        ///< density φ of the state
-  double energy_per_particle = 0;            ///< energy per particle E/N, with cohesion if it acts in this step
-  double pressure = 0;                       ///< pressure p
-  double deviator = 0;                       ///< deviation from hydrostatic stress, see deviator_of()
-  MinimiseSummary summary;                   ///< result of the minimisation of the state
+  JamStage stage = JamStage::compression;  ///< stage of the protocol
+  double density = 0;                      ///< density φ of the state
+  double energy_per_particle = 0;          ///< energy per particle E/N, with cohesion if it acts in this step
+  double pressure = 0;                     ///< pressure p
+  double deviator = 0;                     ///< deviation from hydrostatic stress, see deviator_of()
+  MinimiseSummary summary;                 ///< result of the minimisation of the state
   int descents = 0;  ///< number of saddles that settle() relaxed to reach this state; jam() leaves it 0
   /// difference from the state before; nullopt in compression, at the beginning of a solution branch, and for a step
   /// that failed, or in which a branch ended
@@ -213,7 +212,7 @@ Cycle cycle_of(const JamResult& result, double fit_window);
 struct JamProgress {
   /// packing from which the next step starts: the last minimised state, or the initial configuration
   Packing packing;
-  JamStage stage = JamStage::consolidation;  ///< stage of the next step
+  JamStage stage = JamStage::compression;  ///< stage of the next step
   /// Present value of the step fraction: at first Decompression::step_fraction. It is smaller after steps that failed
   /// or ended a solution branch.
   double step_fraction = 0;
@@ -225,7 +224,7 @@ struct JamProgress {
   /// branch.
   int lost = -1;
   JamResult result;  ///< result so far; its status is not_called until the run has ended
-  /// True if the run began with begin_expansion(). Decompression then begins at any energy. Otherwise the run returns
+  /// True if the run began with begin_decompression(). Decompression then begins at any energy. Otherwise the run returns
   /// to compression if the first minimisation of the decompression reduces the energy too far
   /// (Compression::target_before_relaxation).
   bool jammed = false;
@@ -236,7 +235,7 @@ struct JamProgress {
 /// Progress of a run before its first step, for compression and decompression.
 JamProgress begin_jam(Packing start, const JamOptions& options);
 /// Progress of a run before its first step, for decompression of a jammed packing only.
-JamProgress begin_expansion(Packing jammed, const JamOptions& options);
+JamProgress begin_decompression(Packing jammed, const JamOptions& options);
 
 /// Makes the next step of a run that has not ended: changes the density or pressure, minimises the packing, and appends
 /// the step to the path. The first step of a run and the first step of a decompression only minimise. If a step of the

@@ -54,7 +54,7 @@ double jam_seconds(const ReplicateSpec& spec) {
   up *= std::max(smallest_energy_factor, nearest::pow(first.target_energy / law_energy, energy_power));
   if (first.target_before_relaxation) up *= gentle;
   if (spec.options.cohesion.acts()) up *= cohesive;
-  if (spec.start && spec.start->stage == JamStage::expansion) up = 0;
+  if (spec.start && spec.start->stage == JamStage::decompression) up = 0;
   const double down = decompression * nearest::pow(law_distance / second.final_distance, power) *
                       nearest::log(1 - law_fraction) / nearest::log(1 - std::min(second.step_fraction, 0.9)) *
                       nearest::pow(size, decompression_size_power);

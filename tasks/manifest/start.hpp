@@ -17,8 +17,8 @@ struct Start {
   int frame = -1;  ///< index of the frame in each file, from 0; −1 is the last frame
   /// density to which each packing is strained before the protocol starts; nullopt: packings are not strained
   std::optional<double> density{};
-  JamStage stage = JamStage::consolidation;  ///< first stage of the protocol
-  TypeNames types{};                         ///< solids of the particle types whose shapes are not in the files
+  JamStage stage = JamStage::compression;  ///< first stage of the protocol
+  TypeNames types{};                       ///< solids of the particle types whose shapes are not in the files
 };
 
 /// Paths are relative to the folder of the manifest. The canonical form of a manifest has an additional key "digests" with

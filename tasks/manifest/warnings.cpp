@@ -224,11 +224,11 @@ void look_at_cohesion(const Manifest& manifest, const std::vector<OptionSet>& se
       if (name.starts_with("cohesion.") && value_of(name, sets.front().options) != written(field))
         warnings.add(name, "", "has no effect, because the strength of the cohesion is 0");
     }
-  } else if (manifest.start && manifest.start->stage == JamStage::expansion) {
+  } else if (manifest.start && manifest.start->stage == JamStage::decompression) {
     const auto ends = [](const OptionSet& set) { return ends_at_zero_pressure(set.options); };
     if (std::none_of(sets.begin(), sets.end(), ends))
       warnings.add("cohesion.until", "",
-                   "cohesion has no effect, because it acts only during compression, and /start/stage is expansion");
+                   "cohesion has no effect, because it acts only during compression, and /start/stage is decompression");
   }
 }
 
@@ -238,11 +238,11 @@ void look_at_unused(const Manifest& manifest, const JamOptions& options, Warning
   for (const auto& [name, pointer, field, absent] : all_parameters()) {
     const bool is_initial = name == "initial_density";
     const bool of_compression = name.starts_with("compression_") || name.starts_with("target_");
-    if (!is_initial && !(of_compression && manifest.start->stage == JamStage::expansion)) continue;
+    if (!is_initial && !(of_compression && manifest.start->stage == JamStage::decompression)) continue;
     if (value_of(name, options) == written(field)) continue;
     warnings.add(name, "",
                  is_initial ? "has no effect, because /start gives the initial packings; set /start/density"
-                            : "has no effect, because /start/stage is expansion: there is no compression");
+                            : "has no effect, because /start/stage is decompression: there is no compression");
   }
 }
 

@@ -30,8 +30,8 @@ std::string remedy_of_decompression(const Json& record) {
       return multipliers ? "increase max_evaluations" : "increase max_evaluations, or use the method multipliers";
     case StopReason::line_search_failed: return multipliers ? "" : "use the method multipliers";
     case StopReason::unjammed:
-      return path.front().at("stage") == to_string(JamStage::consolidation) ? "increase target_energy"
-                                                                            : "use a denser initial packing";
+      return path.front().at("stage") == to_string(JamStage::compression) ? "increase target_energy"
+                                                                          : "use a denser initial packing";
     // The first state is already so close to jamming that there is no second one.
     case StopReason::residual_reached:
     case StopReason::precision_floor:

@@ -15,9 +15,10 @@ namespace {
 Checkpoint begin(const ReplicateSpec& spec) {
   if (spec.start) {
     auto packing = initial_packing(*spec.start, spec.replicate);
-    const bool jammed = spec.start->stage == JamStage::expansion;
-    return {jammed ? begin_expansion(std::move(packing), spec.options) : begin_jam(std::move(packing), spec.options),
-            {}};
+    const bool jammed = spec.start->stage == JamStage::decompression;
+    return {
+        jammed ? begin_decompression(std::move(packing), spec.options) : begin_jam(std::move(packing), spec.options),
+        {}};
   }
   auto random = replicate_stream(spec, Purpose::placement);
   return {

@@ -138,7 +138,7 @@ Stages Adder::stages() {
     auto& held = records_.at(replicate_name(spec));
     held = read_record(directory, replicate_name(spec));
     auto jam = restored_jam(held->document, packings_of(directory, *held), spec, store_.record_path(spec).string());
-    auto progress = begin_expansion(jam.states.at(*nearest_state(jam)), spec.options);
+    auto progress = begin_decompression(jam.states.at(*nearest_state(jam)), spec.options);
     progress.result = std::move(jam);
     return {std::move(progress), {}};
   };

@@ -177,7 +177,7 @@ JamProgress jammed(const Task& task, StageTimes& times) {
   JamProgress progress = begin_jam(placed(SolidKind::octahedron, task.particles, 1, options), options);
   while (!progress.ended() && (task.states == 0 || progress.result.states.size() < task.states)) {
     const double before = now();
-    double& sum = progress.stage == JamStage::expansion ? times.decompression : times.compression;
+    double& sum = progress.stage == JamStage::decompression ? times.decompression : times.compression;
     advance(progress, options);
     sum += now() - before;
   }

@@ -42,7 +42,7 @@ TEST(CohesiveJam, FindsEquilibriaAtZeroPressure) {
   EXPECT_FALSE(cubic.phi_j);
   expect_balance(cubic.states.front(), options);
   options.cell = CellShape::free;
-  const JamResult sheared = jam(begin_expansion(cubic.states.front(), options), options);
+  const JamResult sheared = jam(begin_decompression(cubic.states.front(), options), options);
   ASSERT_EQ(sheared.status, JamStatus::zero_pressure);
   expect_balance(sheared.states.front(), options);
   EXPECT_LT(sheared.path.back().energy_per_particle, cubic.path.back().energy_per_particle);
@@ -84,7 +84,7 @@ TEST(CohesiveJam, NamesDetachedPackings) {
   options.cohesion.range = 1e-6;
   Packing apart = start_of(octahedra, 9, options);
   ASSERT_EQ(PackingEnergy().evaluate(apart).contacts, 0);
-  JamProgress progress = begin_expansion(std::move(apart), options);
+  JamProgress progress = begin_decompression(std::move(apart), options);
   EXPECT_EQ(jam(std::move(progress), options).status, JamStatus::detached);
 }
 

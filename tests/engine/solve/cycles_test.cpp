@@ -25,8 +25,8 @@ TEST(Cycles, BeginWithTheRunWithoutCycles) {
   EXPECT_EQ(trained.cycles[0].nearest->poses, plain.states.back().poses);
   int compressions = 0;
   for (std::size_t k = 0; k < trained.path.size(); ++k) {
-    const bool compressed = trained.path[k].stage == JamStage::consolidation;
-    if (compressed && (k == 0 || trained.path[k - 1].stage == JamStage::expansion)) ++compressions;
+    const bool compressed = trained.path[k].stage == JamStage::compression;
+    if (compressed && (k == 0 || trained.path[k - 1].stage == JamStage::decompression)) ++compressions;
     if (k < plain.path.size()) {
       EXPECT_EQ(trained.path[k].density, plain.path[k].density);
     }

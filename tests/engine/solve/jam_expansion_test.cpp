@@ -12,9 +12,9 @@ namespace {
 /// A decompression whose last state indicates that φ_J is `distance` below its density.
 JamProgress expanding(const Packing& packing, double distance, const JamOptions& options) {
   JamProgress progress = begin_jam(packing, options);
-  progress.stage = JamStage::expansion;
+  progress.stage = JamStage::decompression;
   JamStep state;
-  state.stage = JamStage::expansion;
+  state.stage = JamStage::decompression;
   state.density = packing.density();
   state.energy_per_particle = 1e-8;
   state.pressure = 6 * state.energy_per_particle * state.density * state.density / distance;
@@ -138,12 +138,12 @@ TEST(JamTest, AStepWithoutEquilibriumEndsItsBranch) {
 TEST(JamTest, APackingThatLosesItsEnergyIsCompressedFurther) {
   const JamOptions options = lax();
   JamProgress progress = begin_jam(start_of(small, 71, options), options);
-  progress.stage = JamStage::expansion;  // as if this unjammed packing had reached the target energy
+  progress.stage = JamStage::decompression;  // as if this unjammed packing had reached the target energy
   const double from = progress.packing.density();
   JamProgress other = progress;
   advance(progress, options);
   ASSERT_FALSE(progress.ended()) << to_string(progress.result.status);
-  EXPECT_EQ(progress.stage, JamStage::consolidation);
+  EXPECT_EQ(progress.stage, JamStage::compression);
   EXPECT_TRUE(progress.result.states.empty());
   EXPECT_EQ(progress.packing.density(), from);
   const JamResult result = jam(progress, options);

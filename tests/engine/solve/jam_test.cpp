@@ -18,8 +18,8 @@ void expect_path(const JamResult& result, const JamOptions& options) {
   bool expanding = false;
   double before = 0;
   for (const JamStep& step : result.path) {
-    if (step.stage == JamStage::consolidation) {
-      EXPECT_FALSE(expanding) << "consolidation after expansion";
+    if (step.stage == JamStage::compression) {
+      EXPECT_FALSE(expanding) << "compression after decompression";
       EXPECT_GT(step.density, before);
     } else if (!expanding) {
       expanding = true;
@@ -30,7 +30,7 @@ void expect_path(const JamResult& result, const JamOptions& options) {
   }
   ASSERT_TRUE(expanding);
   const auto last_up = std::find_if(result.path.begin(), result.path.end(),
-                                    [](const JamStep& step) { return step.stage == JamStage::expansion; }) -
+                                    [](const JamStep& step) { return step.stage == JamStage::decompression; }) -
                        1;
   EXPECT_GE(last_up->energy_per_particle, options.compression.target_energy);
   for (auto step = result.path.begin(); step != last_up; ++step)
@@ -45,7 +45,7 @@ void expect_states(const JamResult& result, const JamOptions& options) {
   for (std::size_t s = 0; s < result.states.size(); ++s) {
     const Packing& state = result.states[s];
     const JamStep& step = result.path[static_cast<std::size_t>(result.state_steps[s])];
-    EXPECT_EQ(step.stage, JamStage::expansion);
+    EXPECT_EQ(step.stage, JamStage::decompression);
     EXPECT_TRUE(is_equilibrium(step.summary)) << to_string(step.summary.reason);
     const Evaluation fresh = PackingEnergy().evaluate(state, step.summary.precision);
     EXPECT_EQ(step.density, state.density());
@@ -160,7 +160,7 @@ TEST(JamTest, StopsOnRequest) {
     const JamResult result =
         jam(start_of(small, 71, options), options, source.get_token(), [&](const JamProgress& progress) {
           ++steps;
-          decompression_steps += progress.result.path.back().stage == JamStage::expansion;
+          decompression_steps += progress.result.path.back().stage == JamStage::decompression;
           if (wanted_states == 0 ? steps == 3 : decompression_steps == wanted_states) source.request_stop();
         });
     EXPECT_EQ(result.status, JamStatus::interrupted) << to_string(result.status);
@@ -276,7 +276,7 @@ TEST(JamTest, ATargetBeforeRelaxationEndsNearerToJamming) {
     ASSERT_EQ(usual.status, JamStatus::jammed) << to_string(usual.status);
     if (gentle.status != JamStatus::jammed) continue;
     ++jammed;
-    std::printf("expansion starts at φ %.3f, E/N %.1e; by the other reading at %.3f, %.1e, φ_J %.3f\n",
+    std::printf("decompression starts at φ %.3f, E/N %.1e; by the other reading at %.3f, %.1e, φ_J %.3f\n",
                 top_of(usual).density, top_of(usual).energy_per_particle, top_of(gentle).density,
                 top_of(gentle).energy_per_particle, gentle.phi_j->density);
     EXPECT_LT(top_of(gentle).density, top_of(usual).density - options.compression.step);

@@ -7,7 +7,7 @@ namespace {
 
 JamStep followed(double energy_ratio, int lost = 0, int gained = 0, double moved = 0) {
   JamStep step;
-  step.stage = JamStage::expansion;
+  step.stage = JamStage::decompression;
   step.rearrangement = Rearrangement{energy_ratio, lost, gained, moved};
   return step;
 }
@@ -26,22 +26,22 @@ TEST(GaveWay, BelowHalfOfTheExpectedEnergy) {
   EXPECT_FALSE(is_rearranged(followed(0.5)));
   EXPECT_FALSE(is_rearranged(followed(1)));
   EXPECT_FALSE(is_rearranged(followed(3))) << "a jump to a stiffer branch loses nothing";
-  EXPECT_TRUE(is_rearranged(without_state(JamStage::expansion, true)));
-  EXPECT_FALSE(is_rearranged(without_state(JamStage::expansion)));
-  EXPECT_FALSE(is_rearranged(without_state(JamStage::consolidation)));
+  EXPECT_TRUE(is_rearranged(without_state(JamStage::decompression, true)));
+  EXPECT_FALSE(is_rearranged(without_state(JamStage::decompression)));
+  EXPECT_FALSE(is_rearranged(without_state(JamStage::compression)));
 }
 
 TEST(Rearrangements, AreCountedInStepsBetweenEquilibria) {
-  const std::vector<JamStep> path{without_state(JamStage::consolidation),
-                                  without_state(JamStage::consolidation),
-                                  without_state(JamStage::expansion),  // the first state
+  const std::vector<JamStep> path{without_state(JamStage::compression),
+                                  without_state(JamStage::compression),
+                                  without_state(JamStage::decompression),  // the first state
                                   followed(0.9, 40, 2, 30),
                                   followed(0.3, 7, 3, 4.5),
-                                  without_state(JamStage::expansion),  // failed
+                                  without_state(JamStage::decompression),  // failed
                                   followed(0.7, 11, 1, 20),
-                                  without_state(JamStage::expansion, true),
-                                  without_state(JamStage::expansion),  // recompression
-                                  without_state(JamStage::expansion),
+                                  without_state(JamStage::decompression, true),
+                                  without_state(JamStage::decompression),  // recompression
+                                  without_state(JamStage::decompression),
                                   followed(0.1, 2, 0, 1.5)};
   const auto found = rearrangements(path);
   EXPECT_EQ(found.steps, 5);
@@ -53,7 +53,7 @@ TEST(Rearrangements, AreCountedInStepsBetweenEquilibria) {
 
 TEST(Rearrangements, HaveNoMeansIfThereAreNone) {
   for (const auto& path :
-       {std::vector<JamStep>{}, {followed(0.9, 5, 1, 3)}, {without_state(JamStage::expansion, true)}}) {
+       {std::vector<JamStep>{}, {followed(0.9, 5, 1, 3)}, {without_state(JamStage::decompression, true)}}) {
     const auto found = rearrangements(path);
     EXPECT_EQ(found.steps, static_cast<int>(path.size()));
     EXPECT_EQ(found.count, !path.empty() && path[0].lost ? 1 : 0);

@@ -91,8 +91,8 @@ TEST(Work, CompressionComputesNoHessian) {
   long hessians = 0;
   for (const JamStep& step : expanded().path) {
     sum += step.summary.work;
-    if (step.stage == JamStage::expansion) hessians += step.summary.work.hessians;
-    if (step.stage == JamStage::consolidation) {
+    if (step.stage == JamStage::decompression) hessians += step.summary.work.hessians;
+    if (step.stage == JamStage::compression) {
       EXPECT_EQ(step.summary.work.hessians, 0) << "at " << step.density;
       EXPECT_EQ(step.summary.work.factorisations, 0) << "at " << step.density;
     }

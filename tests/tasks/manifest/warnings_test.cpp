@@ -60,7 +60,7 @@ TEST(Warnings, DensitiesMustReachBeyondJamming) {
   EXPECT_EQ(of_protocol({{"max_density", 0.82}}), each) << "at which most octahedra have not got there";
   EXPECT_EQ(of_protocol({{"max_density", 0.91}}), Lines{});
   const Json gentle{{"max_density", 0.76}, {"target_before_relaxation", true}};
-  EXPECT_EQ(of_protocol(gentle), Lines{}) << "consolidation ends just above jamming";
+  EXPECT_EQ(of_protocol(gentle), Lines{}) << "compression ends just above jamming";
   EXPECT_EQ(of_protocol({{"max_density", 0.5}, {"target_before_relaxation", true}}), each);
   EXPECT_EQ(of_protocol({{"max_steps", 30}}), Lines(5, "/protocol/max_steps"));
   EXPECT_EQ(of_protocol({{"max_steps", 30}, {"compression_step", 0.04}}), Lines{});

@@ -282,7 +282,7 @@ JamResult result_of(const Packing& packing) {
   const Evaluation here = PackingEnergy().evaluate(packing);
   JamResult result;
   JamStep step;
-  step.stage = JamStage::expansion;
+  step.stage = JamStage::decompression;
   step.density = packing.density();
   step.energy_per_particle = here.energy / packing.size();
   step.pressure = here.pressure;

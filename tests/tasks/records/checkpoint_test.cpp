@@ -75,7 +75,7 @@ TEST(Checkpoint, TheRestOfARunHasTheSameBits) {
 Checkpoint with_a_state(const ReplicateSpec& spec) {
   const auto outcome = test::made_up_outcome(spec);
   Checkpoint checkpoint{begin_jam(outcome.jam.states.back(), spec.options), {}};
-  checkpoint.progress.stage = JamStage::expansion;
+  checkpoint.progress.stage = JamStage::decompression;
   checkpoint.progress.result = outcome.jam;
   checkpoint.progress.result.status = JamStatus::not_called;
   return checkpoint;

@@ -53,7 +53,7 @@ TEST(Replicate, MessagesOfOtherFailuresStateTheRemedyForTheLastStep) {
   auto outcome = test::made_up_outcome(Plan(parse_manifest(test::tiny_manifest().dump(), "m.json")).at(0, 0));
   outcome.jam.status = JamStatus::not_jammed;
   auto& path = outcome.jam.path;
-  path.front().stage = JamStage::consolidation;
+  path.front().stage = JamStage::compression;
   const auto text_of = [&] {
     outcome.failure = failure_of(outcome.jam);
     return failure_text(make_record(outcome));
@@ -70,7 +70,7 @@ TEST(Replicate, MessagesOfOtherFailuresStateTheRemedyForTheLastStep) {
     EXPECT_TRUE(text.ends_with(std::string(")") + remedy)) << text;
   }
   path.back().summary.reason = StopReason::unjammed;
-  path.front().stage = JamStage::expansion;
+  path.front().stage = JamStage::decompression;
   EXPECT_TRUE(text_of().ends_with("; use a denser initial packing")) << text_of();
   path.front().lost = true;
   EXPECT_TRUE(text_of().ends_with(")")) << text_of();

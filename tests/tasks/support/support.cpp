@@ -195,7 +195,7 @@ Outcome made_up_outcome(const ReplicateSpec& spec) {
   for (int i = 4; i > 0; --i) {
     const double distance = 0.01 * i;
     JamStep step;
-    step.stage = JamStage::expansion;
+    step.stage = JamStage::decompression;
     step.density = point.density + distance;
     step.energy_per_particle = std::pow(distance, 6);
     step.pressure = std::pow(distance, 5);

@@ -60,7 +60,7 @@ function stopRows(data) {
 function stopFigure(data) {
   const title = 'Stop reasons of minimisations', id = 'stops';
   const all = stopRows(data);
-  const stops = all.filter((row) => row.stage === 'expansion');
+  const stops = all.filter((row) => row.stage === 'decompression');
   if (stops.length === 0) return {id, title, absent: 'no replicate reached its decompression.'};
   const reasons = Object.keys(reasonColours).filter((reason) => stops.some((row) => row.reason === reason));
   const others = [...new Set(stops.map((row) => row.reason))].filter((reason) => !reasons.includes(reason)).sort();
