@@ -12,6 +12,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 # Field, the place of its value in a record, and its name in tables.
 QUANTITY = ("number", lambda record: record["states"][record["nearest"]]["clusters"]["number"], "n_clusters")
@@ -39,7 +40,7 @@ def copied(source, folder):
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_bytes((source / name).read_bytes())
     for diff in diffs(source):
-        run("git", "apply", "--recount", "-C1", "-", cwd=folder, input=diff)
+        run("patch", "-p1", "--fuzz=1", cwd=folder, input=diff)
         print(re.findall(r"^\+\+\+ b/(\S+)", diff, re.MULTILINE))
 
 
@@ -64,11 +65,11 @@ def check(program, module, folder):
 
 def main(source, build=None):
     source = pathlib.Path(source).resolve()
-    folder = pathlib.Path(build or source / "build/extending").resolve() / "source"
-    copied(source, folder)
     if build is None:
-        return
-    folder.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory() as folder:
+            return copied(source, pathlib.Path(folder))
+    folder = pathlib.Path(build).resolve() / "source"
+    copied(source, folder)
     run("cmake", "-S", folder, "-B", folder.parent / "build", "-G", "Ninja", "-DISOJAM_NATIVE=ON", "-DISOJAM_TESTS=OFF")
     run("cmake", "--build", folder.parent / "build")
     check(folder.parent / "build/isojam", folder.parent / "build/python", folder.parent)
