@@ -12,11 +12,7 @@ set(isojam_package_names
   fmt            libfmt-dev            fmt-devel        fmt               fmt
   CLI11          libcli11-dev          cli11-devel      cli11             cli11
   GTest          libgtest-dev          gtest-devel      gtest             gtest
-  valijson       libvalijson-dev       valijson-devel   valijson          valijson
-  CGAL           libcgal-dev           CGAL-devel       cgal              cgal-cpp
-  GMP            libgmp-dev            gmp-devel        gmp               gmp
-  MPFR           libmpfr-dev           mpfr-devel       mpfr              mpfr
-  voro++         voro++-dev            voro++-devel     voro++            voro)
+  valijson       libvalijson-dev       valijson-devel   valijson          valijson)
 
 # isojam_distribution(<out column> <out command>): column of isojam_package_names for this machine, and the command that
 # installs packages; column 0 where the distribution is unknown.

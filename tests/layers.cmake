@@ -65,17 +65,11 @@ function(isojam_report_layers)
 endfunction()
 
 # ---- Search --------------------------------------------------------------------------------------------------
-find_package(CGAL QUIET)
 find_package(valijson QUIET)
-find_library(ISOJAM_GMP gmp)
-find_library(ISOJAM_MPFR mpfr)
 foreach(program bash clang-format clang-tidy chromium chromedriver mkdocs)
   find_program(ISOJAM_TESTS_${program} ${program})
   set(found_${program} ${ISOJAM_TESTS_${program}})
 endforeach()
-set(found_CGAL ${CGAL_FOUND})
-set(found_GMP ${ISOJAM_GMP})
-set(found_MPFR ${ISOJAM_MPFR})
 set(found_valijson ${valijson_FOUND})
 set(found_vega ${ISOJAM_PAGES})
 set(found_three ${ISOJAM_PAGES})
@@ -90,5 +84,5 @@ print(*filter(importlib.util.find_spec, sys.argv[1:]), sep=';', end='')"
     set(found_${module} ON)
   endforeach()
 endif()
-mark_as_advanced(ISOJAM_GMP ISOJAM_MPFR ISOJAM_TESTS_bash ISOJAM_TESTS_clang-format ISOJAM_TESTS_clang-tidy
-                 ISOJAM_TESTS_chromium ISOJAM_TESTS_chromedriver ISOJAM_TESTS_mkdocs)
+mark_as_advanced(ISOJAM_TESTS_bash ISOJAM_TESTS_clang-format ISOJAM_TESTS_clang-tidy ISOJAM_TESTS_chromium
+                 ISOJAM_TESTS_chromedriver ISOJAM_TESTS_mkdocs)

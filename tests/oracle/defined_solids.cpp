@@ -6,9 +6,7 @@
 #include <cstdlib>
 
 #include "engine/geometry/repair.hpp"
-#include "tasks/extras/chart/pairs/clip_polytope.hpp"
 #include "tests/engine/geometry/overlap/pairs.hpp"
-#include "tests/oracle/exact_solid.hpp"
 
 namespace isojam::oracle {
 
@@ -58,53 +56,6 @@ std::pair<Real, RealVector> moments(const RealBody& body) {
   return {volume, moment};
 }
 
-RealQuaternion quaternion(const Pose& pose) {
-  std::array<Real, 4> q;  // x, y, z, w
-  for (int c = 0; c < 4; ++c) q[static_cast<std::size_t>(c)] = exact(pose.component(c));
-  return {q[3], q[0], q[1], q[2]};
-}
-
-RealVector position(const Pose& pose) { return exact(pose.coordinate(0), pose.coordinate(1), pose.coordinate(2)); }
-
-/// Vertices in the lab frame, relative to the centre of A, as arrays of T.
-template <class T, class Convert>
-std::vector<std::array<T, 3>> placed(const RealBody& body, const Pose& pose, const Pose& at_a, const Convert& convert) {
-  const RationalMatrix rotation = rotation_matrix(quaternion(pose));
-  const RealVector shift = position(pose) - position(at_a);
-  std::vector<std::array<T, 3>> result;
-  for (const RealVector& v : body.vertices) {
-    std::array<T, 3>& image = result.emplace_back();
-    for (std::size_t r = 0; r < 3; ++r) {
-      image[r] = convert(to_rational(shift[static_cast<int>(r)]));
-      for (std::size_t c = 0; c < 3; ++c) {
-        image[r] = T(image[r] + convert(rotation[r][c]) * convert(to_rational(v[static_cast<int>(c)])));
-      }
-    }
-  }
-  return result;
-}
-
-template <class T>
-std::array<T, 3> cross_product(const std::array<T, 3>& a, const std::array<T, 3>& b, const std::array<T, 3>& c) {
-  std::array<T, 3> u, v;
-  for (std::size_t k = 0; k < 3; ++k) u[k] = T(b[k] - a[k]), v[k] = T(c[k] - a[k]);
-  return {T(u[1] * v[2] - u[2] * v[1]), T(u[2] * v[0] - u[0] * v[2]), T(u[0] * v[1] - u[1] * v[0])};
-}
-
-template <class T, class Convert>
-ClipPolytope<T> intersection(const testing_pairs::PosedPair& pair, const Convert& convert) {
-  const RealBody a = body_of(pair.a), b = body_of(pair.b);
-  ClipPolytope<T> result(placed<T>(a, pair.at_a, pair.at_a, convert), a.faces);
-  const auto corners = placed<T>(b, pair.at_b, pair.at_a, convert);
-  for (const auto& face : b.faces) {
-    // Three corners that are far apart, since adjacent ones may be close to each other.
-    const auto corner = [&](std::size_t k) { return corners[static_cast<std::size_t>(face[k * face.size() / 3])]; };
-    const std::array<T, 3> normal = cross_product<T>(corner(0), corner(1), corner(2)), on = corner(0);
-    result.clip(normal, T(normal[0] * on[0] + normal[1] * on[1] + normal[2] * on[2]));
-  }
-  return result;
-}
-
 }  // namespace
 
 const std::vector<DefinedSolid>& defined_solids() {
@@ -145,19 +96,9 @@ RealBody normalised(const DefinedSolid& defined) {
   for (const Face& face : defined.solid->faces()) body.faces.push_back(face.vertices);
   const auto [six, moment] = moments(body);
   const RealVector centroid = body.vertices[0] + moment / (4 * six);
-  const Real scale = 1 / cbrt(Real(six / 6));
+  const Real scale = pow(Real(six / 6), Real(-1) / 3);
   for (RealVector& v : body.vertices) v = scale * (v - centroid);
   return body;
-}
-
-RealOverlap real_overlap(const testing_pairs::PosedPair& pair) {
-  const auto common = intersection<Real>(pair, [](const Rational& x) { return to_real(x); });
-  const auto area = common.original_area();
-  return {common.volume(), {area[0], area[1], area[2]}};
-}
-
-Real rational_volume(const testing_pairs::PosedPair& pair) {
-  return to_real(intersection<Rational>(pair, [](const Rational& x) { return x; }).volume());
 }
 
 }  // namespace isojam::oracle

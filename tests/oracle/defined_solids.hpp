@@ -8,7 +8,7 @@
 #include "tests/oracle/exact_overlap.hpp"
 
 // User-defined solids whose vertices were moved far from the origin, scaled, rounded or merged, and references for them
-// to 100 digits.
+// to 50 digits.
 
 namespace isojam::oracle {
 
@@ -30,7 +30,7 @@ struct DefinedSolid {
 /// planar.
 const std::vector<DefinedSolid>& defined_solids();
 
-/// A polyhedron with vertices of 100 digits.
+/// A polyhedron with vertices of 50 digits.
 struct RealBody {
   std::vector<RealVector> vertices;
   std::vector<std::vector<int>> faces;
@@ -40,14 +40,5 @@ struct RealBody {
 RealBody body_of(const ConvexSolid& solid);
 /// The given vertices, moved and scaled so that the centroid is 0 and the volume 1.
 RealBody normalised(const DefinedSolid& defined);
-
-/// V and S_A of a pair in the lab frame, to 100 digits: A is cut by planes through three corners of each face of B.
-struct RealOverlap {
-  Real volume = 0;
-  RealVector area = RealVector::Zero();
-};
-RealOverlap real_overlap(const testing_pairs::PosedPair& pair);
-/// The same volume with rational numbers, from the vertices and poses to the result.
-Real rational_volume(const testing_pairs::PosedPair& pair);
 
 }  // namespace isojam::oracle

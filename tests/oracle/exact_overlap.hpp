@@ -1,73 +1,93 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <boost/multiprecision/eigen.hpp>
-#include <boost/multiprecision/mpfr.hpp>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
-#include "engine/geometry/convex_solid.hpp"
-#include "engine/geometry/pose.hpp"
+#include "tasks/extras/chart/pairs/intersection.hpp"
 #include "tasks/extras/chart/pairs/pair_cases.hpp"
+
+namespace isojam {
+
+/// A rational number, for cuts that decide without any error.
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;
+/// A number with 50 decimal digits.
+using Real =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float_50::backend_type, boost::multiprecision::et_off>;
+using RealVector = Eigen::Matrix<Real, 3, 1>;
+
+/// The half-space with a denominator of 2^112. Its error of 2e-34 is smaller than that of the solids, and exact
+/// arithmetic is far faster with short numbers.
+template <>
+inline HalfSpace<Rational> half_space(const ConvexSolid& solid, int f, const Pose& pose, const Pose& centre) {
+  const HalfSpace<Real> precise = half_space<Real>(solid, f, pose, centre);
+  const auto shortened = [](const Real& x) { return Rational(ldexp(round(ldexp(x, 112)), -112)); };
+  return {{shortened(precise.normal[0]), shortened(precise.normal[1]), shortened(precise.normal[2])},
+          shortened(precise.offset)};
+}
+
+/// The solid as a cube that is cut by all its planes. Rounded vertices would make faces that are not exactly planar.
+template <>
+inline ClipPolytope<Rational> polytope(const ConvexSolid& solid, const Pose& pose) {
+  const Rational half(2 * solid.circumradius());
+  std::vector<ClipPolytope<Rational>::Side> sides;
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (const bool upper : {false, true}) {
+      sides.emplace_back();
+      for (const auto& [u, v] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+        auto& corner = sides.back().corners.emplace_back();
+        corner[c] = upper ? half : Rational(-half);
+        corner[(c + 1) % 3] = (upper ? u : v) * half;
+        corner[(c + 2) % 3] = (upper ? v : u) * half;
+      }
+    }
+  }
+  ClipPolytope<Rational> body(std::move(sides));
+  for (int f = 0; f < solid.arrays().faces; ++f) body.clip(half_space<Rational>(solid, f, pose, pose), f);
+  return body;
+}
+
+}  // namespace isojam
 
 namespace isojam::oracle {
 
-/// A number with 100 decimal digits. Sums over an intersection then retain the 60 digits of the solids, even if the
-/// intersection is very thin.
-using Real =
-    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<100>, boost::multiprecision::et_off>;
-using RealVector = Eigen::Matrix<Real, 3, 1>;
-using RealMatrix = Eigen::Matrix<Real, 3, 3>;
-using RealQuaternion = Eigen::Quaternion<Real>;
-
-/// Pose of B in the body frame of A: y ↦ R y + displacement. R is the rotation by q/|q|. It is computed exactly, as a
-/// rational function of the components of q, which may have any length except 0.
-struct ExactPose {
-  RealQuaternion quaternion{Real(1), Real(0), Real(0), Real(0)};
-  RealVector displacement = RealVector::Zero();
+/// A solid in a pose.
+struct Placed {
+  const ConvexSolid& solid;
+  Pose pose;
 };
-
-/// The pose with exactly these components.
-ExactPose exact_pose(const Eigen::Quaterniond& quaternion, const Eigen::Vector3d& displacement);
-inline ExactPose exact_pose(const PairCase& pair) { return exact_pose(pair.quaternion, pair.displacement); }
-
-/// The same pose for the engine: the exact rotation matrix and displacement, rounded once to double.
-RelativePose rounded(const ExactPose& pose);
-
-/// The pose of A in the body frame of B, which exchanges the two solids.
-ExactPose inverse(const ExactPose& pose);
 
 /// Upper limit of the displacement of a face plane by rounding errors of the pose and of the algorithm in double: 64
 /// ulp of the size of the pair.
-double plane_rounding(SolidKind a, SolidKind b);
+double plane_rounding(const ConvexSolid& a, const ConvexSolid& b);
 
-/// The intersection of A and B with at least 30 correct digits. Vectors are in the body frame of A, and moments are
-/// about its centre, as in isojam::Overlap.
+/// The intersection of A and B with at least 20 correct digits. Vectors are in the lab frame, and moments are about the
+/// centre of A.
 struct ExactOverlap {
   Real volume = 0;
   RealVector area = RealVector::Zero();    ///< S_A = ∂V/∂x_A
   RealVector moment = RealVector::Zero();  ///< M_A = ∂V/∂θ_A
-  /// False if a face of A and a face of B lie in one plane and share a part of the boundary. S and M are then
-  /// discontinuous; the values here count the shared part as a part of A.
-  bool single_valued = true;
   /// Upper limit of the effect of rounding on S: the area of those parts of the boundary that can belong to A or to B
   /// if the face planes move by plane_rounding(). It consists of strips along the contact loop, and of whole faces
-  /// where faces of A and B nearly coincide.
+  /// where faces of A and B coincide or nearly coincide.
   double contested_area = 0;
-  /// bits of the faces of which a part with positive area bounds the intersection
-  std::uint32_t faces_a = 0, faces_b = 0;
-  /// bits of the edges of which a part with positive length bounds the intersection
-  std::uint32_t edges_a = 0, edges_b = 0;
+  /// bits of the first 64 faces and edges of which a part bounds the intersection
+  std::uint64_t faces_a = 0, faces_b = 0, edges_a = 0, edges_b = 0;
 };
 
-/// Computes the intersection as a convex hull in exact rational arithmetic (CGAL). The points are the vertices of each
-/// solid inside the other one, and the points where an edge of one solid crosses a face of the other one. Only the
-/// solids are approximate: √5 and the cube roots of the scales are rational numbers with errors of 1e-60. Throws
-/// std::logic_error if a vertex of the engine's solids deviates by more than 1e-14 from the closed form. Throws
-/// std::invalid_argument for a quaternion of length 0.
-ExactOverlap exact_overlap(SolidKind a, SolidKind b, const ExactPose& pose);
+/// Computes the intersection by cutting A with the planes of B in numbers of type T: Rational, or Real for pairs
+/// without coinciding faces, for which it is a hundred times faster.
+template <class T>
+ExactOverlap exact_overlap(const Placed& a, const Placed& b);
+/// The overlap of a pair, in rational numbers if its class has faces that coincide or nearly coincide.
+ExactOverlap exact_overlap(const PairCase& pair, PairClass pair_class = PairClass::random_contact);
 
-/// The volume by an independent method: it cuts A with the face planes of B, one after another, in rational arithmetic.
-Real exact_clipped_volume(SolidKind a, SolidKind b, const ExactPose& pose);
+/// True for classes with faces that may coincide or nearly coincide.
+inline bool is_contested(PairClass pair_class) { return pair_class >= PairClass::same_orientation; }
 
 }  // namespace isojam::oracle

@@ -23,13 +23,13 @@ OverlapErrors errors(const Overlap& measured, const ExactOverlap& exact, SolidKi
   const Real area = exact.area.norm();
   const Real lever = exact.moment.norm();
   const Real moment = std::max(lever, Real(area * platonic(a).inradius()));
-  return {ratio(abs(Real(measured.volume - exact.volume)), exact.volume),
+  return {ratio(abs(Real(Real(measured.volume) - exact.volume)), exact.volume),
           ratio((measured.area.cast<Real>() - exact.area).norm(), area),
           ratio((measured.moment.cast<Real>() - exact.moment).norm(), moment)};
 }
 
 OverlapTolerance tolerance(PairClass pair_class, SolidKind a, SolidKind b) {
-  const double floor = plane_rounding(a, b) * std::min(surface(a), surface(b));
+  const double floor = plane_rounding(platonic(a), platonic(b)) * std::min(surface(a), surface(b));
   switch (pair_class) {
     case PairClass::random_contact: return {5e-12, 0, 1e-10, false};
     case PairClass::near_parallel_faces:
@@ -45,15 +45,13 @@ OverlapTolerance tolerance(PairClass pair_class, SolidKind a, SolidKind b) {
 }
 
 double gradient_noise(const ExactOverlap& exact, SolidKind a) {
-  if (!exact.single_valued) return std::numeric_limits<double>::infinity();
   if (exact.contested_area == 0) return 0;
   const double lever = platonic(a).circumradius() / platonic(a).inradius();
   return lever * exact.contested_area / static_cast<double>(exact.area.norm());
 }
 
 double gradient_limit(const ExactOverlap& exact, SolidKind a, const OverlapTolerance& tolerance) {
-  const bool relaxed = tolerance.contested || !exact.single_valued;
-  return relaxed ? std::max(tolerance.gradient, gradient_noise(exact, a)) : tolerance.gradient;
+  return tolerance.contested ? std::max(tolerance.gradient, gradient_noise(exact, a)) : tolerance.gradient;
 }
 
 std::string disagreement(const Overlap& measured, const ExactOverlap& exact, SolidKind a,
@@ -64,7 +62,7 @@ std::string disagreement(const Overlap& measured, const ExactOverlap& exact, Sol
   wrong << std::setprecision(17);
   // written so that a NaN counts as a disagreement
   const bool volume_ok =
-      error.volume <= tolerance.volume || abs(Real(measured.volume - exact.volume)) <= tolerance.volume_floor;
+      error.volume <= tolerance.volume || abs(Real(Real(measured.volume) - exact.volume)) <= tolerance.volume_floor;
   if (!volume_ok) {
     wrong << "V = " << measured.volume << ", exact " << static_cast<double>(exact.volume) << ", relative error "
           << error.volume << " > " << tolerance.volume << "; ";

@@ -31,7 +31,7 @@ struct OverlapTolerance {
 OverlapTolerance tolerance(PairClass pair_class, SolidKind a, SolidKind b);
 
 /// Upper limit of the relative errors of S and M that rounding of the pose alone can cause: contested_area/|S|, times
-/// the ratio of circumradius and inradius of A. It is infinite if S and M are discontinuous.
+/// the ratio of circumradius and inradius of A.
 double gradient_noise(const ExactOverlap& exact, SolidKind a);
 
 /// Largest allowed error of S and M for a pair: the tolerance, or gradient_noise() if it is larger and faces may nearly

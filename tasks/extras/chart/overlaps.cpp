@@ -1,20 +1,37 @@
 #include <fmt/format.h>
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
-#include <optional>
+#include <utility>
 
 #include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/geometry/overlap/overlap.hpp"
 #include "tasks/extras/chart/comparisons.hpp"
-#include "tasks/extras/chart/pairs/reference_overlap.hpp"
+#include "tasks/extras/chart/pairs/intersection.hpp"
+#include "tasks/extras/chart/pairs/pair_cases.hpp"
 
 namespace isojam {
 namespace {
 
-using oracle::PairCase;
-using oracle::PairClass;
+/// A number with 50 decimal digits.
+using Digits50 =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float_50::backend_type, boost::multiprecision::et_off>;
 
-/// Classes of pairs without coinciding faces. reference_overlap() is not valid for coinciding faces.
+/// V, and S_A = ∂V/∂x_A: the vector area of the faces of A inside B. If A moves, these faces sweep the gained volume.
+template <class T>
+struct VolumeAndArea {
+  T volume;
+  std::array<T, 3> area;
+};
+
+template <class T>
+VolumeAndArea<T> by_cuts(const PairCase& pair) {
+  const ConvexSolid& a = platonic(pair.a);
+  const auto body = intersection<T>(a, Pose{}, platonic(pair.b), pair.pose());
+  return {body.volume(), body.area_and_moment(a.arrays().faces).first};
+}
+
+/// Classes of pairs without coinciding faces, for which the reference would not be valid.
 constexpr std::array classes{PairClass::random_contact, PairClass::near_parallel_faces, PairClass::edge_in_face,
                              PairClass::parallel_edges, PairClass::vertex_vertex,       PairClass::same_orientation};
 
@@ -24,59 +41,51 @@ constexpr double worst_useful_overlap = 1e-2;
 /// A pair, and the data that a packing prepares before it computes overlaps.
 struct PreparedPair {
   PairCase pair;
-  Pose pose;  ///< pose of B; A is at the origin
   LonePlacedSolid a, b, double_double_a, double_double_b;
   DoubleDoubleVector displacement;
   QuadPose quad;
-  oracle::ReferenceOverlap right;
+  VolumeAndArea<Digits50> right;
 };
 
 PreparedPair prepared(const PairCase& pair) {
   const ConvexSolid &a = platonic(pair.a), &b = platonic(pair.b);
-  Pose pose;
-  pose.position = pair.displacement;
-  pose.orientation = pair.quaternion;
+  const Pose pose = pair.pose();
   const DoubleDoubleMatrix turn = rotation_matrix(pose);
   DoubleDoubleVector displacement;
   displacement.high = pair.displacement;
   return {pair,
-          pose,
           LonePlacedSolid(a, Eigen::Matrix3d(Eigen::Matrix3d::Identity())),
           LonePlacedSolid(b, turn.high),
           LonePlacedSolid(a, DoubleDoubleMatrix{}),
           LonePlacedSolid(b, turn),
           displacement,
           relative_pose(Pose{}, pose, quad_position(pose)),
-          oracle::reference_overlap(pair)};
+          by_cuts<Digits50>(pair)};
 }
 
-struct ComputedOverlap {
-  double volume = 0;
-  std::optional<Eigen::Vector3d> area;  ///< S_A, if the method computes it
-};
+using Computed = VolumeAndArea<double>;
 
-ComputedOverlap in_doubles(const PreparedPair& pair) {
+Computed computed(const Overlap& found) { return {found.volume, {found.area[0], found.area[1], found.area[2]}}; }
+
+Computed in_doubles(const PreparedPair& pair) {
   SeparatingAxis axis;
-  const Overlap found = overlap(pair.a, pair.b, pair.pair.displacement, axis);
-  return {found.volume, found.area};
+  return computed(overlap(pair.a, pair.b, pair.pair.displacement, axis));
 }
 
-ComputedOverlap in_double_doubles(const PreparedPair& pair) {
+Computed in_double_doubles(const PreparedPair& pair) {
   SeparatingAxis axis;
-  const Overlap found = overlap(pair.double_double_a, pair.double_double_b, pair.displacement, axis);
-  return {found.volume, found.area};
+  return computed(overlap(pair.double_double_a, pair.double_double_b, pair.displacement, axis));
 }
 
-ComputedOverlap by_quadruple_clip(const PreparedPair& pair) {
-  const Overlap found = narrowed(clipped_overlap(platonic(pair.pair.a), platonic(pair.pair.b), pair.quad));
-  return {found.volume, found.area};
+Computed by_quadruple_clip(const PreparedPair& pair) {
+  return computed(narrowed(clipped_overlap(platonic(pair.pair.a), platonic(pair.pair.b), pair.quad)));
 }
 
-ComputedOverlap by_plain_clip(const PreparedPair& pair) { return {oracle::rough_volume(pair.pair), std::nullopt}; }
+Computed by_plain_clip(const PreparedPair& pair) { return by_cuts<double>(pair.pair); }
 
 struct Kernel {
   std::string_view method, setting;
-  ComputedOverlap (*overlap)(const PreparedPair&);
+  Computed (*overlap)(const PreparedPair&);
 };
 
 constexpr std::array<Kernel, 4> kernels{{{"contact loop in doubles", "double", in_doubles},
@@ -84,27 +93,27 @@ constexpr std::array<Kernel, 4> kernels{{{"contact loop in doubles", "double", i
                                          {"clip in quadruple precision", "quadruple", by_quadruple_clip},
                                          {"clip in doubles", "double", by_plain_clip}}};
 
-double relative_error(double volume, const oracle::Digits50& right) {
-  return static_cast<double>(oracle::Digits50(abs(oracle::Digits50(volume) - right) / right));
+double relative_error(double volume, const Digits50& right) {
+  return static_cast<double>(Digits50(abs(Digits50(volume) - right) / right));
 }
 
-double relative_error(const Eigen::Vector3d& area, const std::array<oracle::Digits50, 3>& right) {
-  oracle::Digits50 difference = 0, whole = 0;
+double relative_error(const std::array<double, 3>& area, const std::array<Digits50, 3>& right) {
+  Digits50 difference = 0, whole = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    const oracle::Digits50 off = oracle::Digits50(area[static_cast<Eigen::Index>(c)]) - right[c];
+    const Digits50 off = Digits50(area[c]) - right[c];
     difference += off * off;
     whole += right[c] * right[c];
   }
-  return std::sqrt(static_cast<double>(oracle::Digits50(difference / whole)));
+  return std::sqrt(static_cast<double>(Digits50(difference / whole)));
 }
 
-void set_errors(const std::vector<PreparedPair>& pairs, const std::vector<ComputedOverlap>& found, ChartPoint& point) {
+void set_errors(const std::vector<PreparedPair>& pairs, const std::vector<Computed>& found, ChartPoint& point) {
   std::vector<double> errors, area_errors;
   int wrong = 0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     errors.push_back(relative_error(found[k].volume, pairs[k].right.volume));
     wrong += !(errors.back() < worst_useful_overlap);
-    if (found[k].area) area_errors.push_back(relative_error(*found[k].area, pairs[k].right.area));
+    area_errors.push_back(relative_error(found[k].area, pairs[k].right.area));
   }
   point.error = spread(errors);
   point.failed = wrong > 0;
@@ -118,7 +127,7 @@ ChartPoint point_of(const std::string& task, const Kernel& kernel, const std::ve
                     const Measuring& measuring) {
   ChartPoint point{task,          std::string(kernel.method), std::string(kernel.setting), {}, {}, "done", false,
                    Json::object()};
-  std::vector<ComputedOverlap> found(pairs.size());
+  std::vector<Computed> found(pairs.size());
   auto seconds = timed(measuring, [&] {
     for (std::size_t k = 0; k < pairs.size(); ++k) found[k] = kernel.overlap(pairs[k]);
   });
@@ -137,7 +146,7 @@ void compare_overlaps(const Measuring& measuring, ChartFamily& family) {
       if (measuring.over()) return;
       measuring.progress("overlaps, " + task);
       std::vector<PreparedPair> pairs;
-      for (const PairCase& pair : oracle::pair_cases(solid, solid, pair_class, measuring.config.pairs)) {
+      for (const PairCase& pair : pair_cases(solid, solid, pair_class, measuring.config.pairs)) {
         if (measuring.over()) return;
         pairs.push_back(prepared(pair));
       }

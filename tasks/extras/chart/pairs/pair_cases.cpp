@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "engine/random/stream.hpp"
-#include "tasks/extras/chart/pairs/clip_polytope.hpp"
+#include "tasks/extras/chart/pairs/intersection.hpp"
 
-namespace isojam::oracle {
+namespace isojam {
 
 namespace {
 
@@ -152,6 +152,11 @@ Vector3d exact_in_plane(RandomStream& random, SolidKind kind) {
   return {x, y, -x - y};                                  // parallel to the face with the normal (1, 1, 1)
 }
 
+/// Volume of the intersection in doubles, which suffices to construct pairs.
+double rough_volume(const PairCase& pair) {
+  return intersection<double>(platonic(pair.a), Pose{}, platonic(pair.b), pair.pose()).volume();
+}
+
 /// Moves B along the line until the volume is within 1 % of `target`. Returns nullopt if this does not succeed.
 std::optional<PairCase> at_volume(SolidKind a, SolidKind b, const Approach& approach, double target) {
   double deep = 0, free = 2 * (platonic(a).circumradius() + platonic(b).circumradius());
@@ -228,19 +233,4 @@ std::vector<PairCase> pair_cases(SolidKind a, SolidKind b, PairClass pair_class,
   return cases;
 }
 
-double rough_volume(const PairCase& pair) {
-  const ConvexSolid &a = platonic(pair.a), &b = platonic(pair.b);
-  std::vector<std::array<double, 3>> vertices;
-  for (const Vector3d& v : a.vertices()) vertices.push_back({v.x(), v.y(), v.z()});
-  std::vector<std::vector<int>> faces;
-  for (const Face& face : a.faces()) faces.push_back(face.vertices);
-  ClipPolytope<double> body(vertices, faces);
-  const Matrix3d rotation = pair.quaternion.normalized().toRotationMatrix();
-  for (const Face& face : b.faces()) {
-    const Vector3d n = rotation * face.normal;
-    body.clip({n.x(), n.y(), n.z()}, face.offset + n.dot(pair.displacement));
-  }
-  return body.volume();
-}
-
-}  // namespace isojam::oracle
+}  // namespace isojam

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "engine/geometry/convex_solid.hpp"
+#include "engine/geometry/pose.hpp"
 #include "engine/names/enum_names.hpp"
 
-namespace isojam::oracle {
+namespace isojam {
 
 /// Classes of pairs of solids. Each is difficult for an overlap algorithm, for a different reason.
 enum class PairClass {
@@ -27,25 +28,16 @@ enum class PairClass {
   near_coincident,
 };
 
-}  // namespace isojam::oracle
-
-namespace isojam {
-
 template <>
-inline constexpr std::array enum_names<oracle::PairClass>{
-    EnumName{oracle::PairClass::random_contact, "random"},
-    EnumName{oracle::PairClass::near_parallel_faces, "near-parallel faces"},
-    EnumName{oracle::PairClass::edge_in_face, "edge in face"},
-    EnumName{oracle::PairClass::parallel_edges, "parallel edges"},
-    EnumName{oracle::PairClass::vertex_vertex, "vertex-vertex"},
-    EnumName{oracle::PairClass::same_orientation, "same orientation"},
-    EnumName{oracle::PairClass::coplanar_faces, "coplanar faces"},
-    EnumName{oracle::PairClass::coincident, "coincident"},
-    EnumName{oracle::PairClass::near_coincident, "near-coincident"}};
-
-}  // namespace isojam
-
-namespace isojam::oracle {
+inline constexpr std::array enum_names<PairClass>{EnumName{PairClass::random_contact, "random"},
+                                                  EnumName{PairClass::near_parallel_faces, "near-parallel faces"},
+                                                  EnumName{PairClass::edge_in_face, "edge in face"},
+                                                  EnumName{PairClass::parallel_edges, "parallel edges"},
+                                                  EnumName{PairClass::vertex_vertex, "vertex-vertex"},
+                                                  EnumName{PairClass::same_orientation, "same orientation"},
+                                                  EnumName{PairClass::coplanar_faces, "coplanar faces"},
+                                                  EnumName{PairClass::coincident, "coincident"},
+                                                  EnumName{PairClass::near_coincident, "near-coincident"}};
 
 inline constexpr auto all_pair_classes = all_of<PairClass>;
 
@@ -58,12 +50,17 @@ struct PairCase {
   SolidKind a, b;
   Eigen::Quaterniond quaternion;  ///< rotation of B; the quaternion may have any length
   Eigen::Vector3d displacement;
+
+  /// The pose of B.
+  Pose pose() const {
+    Pose pose;
+    pose.position = displacement;
+    pose.orientation = quaternion;
+    return pose;
+  }
 };
 
 /// The first `count` pairs of a class. Equal arguments give equal pairs, because the seed is fixed.
 std::vector<PairCase> pair_cases(SolidKind a, SolidKind b, PairClass pair_class, int count);
 
-/// Volume of the intersection, by clipping in double precision. Use it to construct pairs, but not to check results.
-double rough_volume(const PairCase& pair);
-
-}  // namespace isojam::oracle
+}  // namespace isojam
