@@ -1,4 +1,4 @@
-# Verbs: run test build bench bench-against equilibria paper rigidity percolation reproducibility docs test-asan fuzz polyhedra
+# Verbs: run test build bench bench-against paper rigidity percolation reproducibility docs test-asan fuzz polyhedra
 # test-slurm test-debian12 test-debian13 package test-packages lint format packages clean. On Debian 12 and 13 each verb
 # first installs the packages that it needs and that are missing.
 #   make lint LINT='engine/solve/jam.cpp'
@@ -20,16 +20,16 @@ PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-d
                     nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev libjs-vega libjs-three
 LINT_PACKAGES    := clang-format clang-tidy
 # The tests lint two known-bad files, so they need the linters too.
-TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
-                    libmpfr-dev voro++-dev python3 python3-gsd python3-vtk9 python3-numpy python3-pandas \
-                    python3-matplotlib python3-scipy python3-yaml groff-base zsh fish
+TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev python3 python3-gsd \
+                    python3-vtk9 python3-numpy python3-pandas python3-matplotlib python3-scipy python3-yaml groff-base \
+                    zsh fish
 # Where there is no browser its tests say that they are skipped; everything else is tested.
 BROWSER_PACKAGES := chromium chromium-driver fonts-dejavu-core python3-selenium mkdocs
 # Debian 12 has clang 14, Debian 13 has clang 19.
 CLANG            ?= $(shell . /etc/os-release 2>/dev/null; [ "$$VERSION_ID" = 12 ] && echo 14 || echo 19)
 CLANG_PACKAGES   := clang-$(CLANG)
 FUZZ_PACKAGES    := $(PROGRAM_PACKAGES) $(CLANG_PACKAGES) libclang-rt-$(CLANG)-dev llvm-$(CLANG)
-BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev libsuitesparse-dev libopenblas-serial-dev
+BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev libcgal-dev voro++-dev libsuitesparse-dev libopenblas-serial-dev
 PACKAGE_PACKAGES := dpkg-dev python3-build python3-setuptools python3-wheel
 SLURM_PACKAGES   := slurm-wlm munge python3
 DOCS_PACKAGES    := mkdocs doxygen python3
@@ -63,7 +63,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DISOJAM_NATIVE=ON -DCMAKE_EXPORT_CO
 # and forth between `make run` and `make test` compiles nothing twice.
 CONFIGURE_PROGRAM = $(CONFIGURE) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DISOJAM_TESTS=OFF)
 
-.PHONY: build run test test-asan fuzz test-slurm bench equilibria paper rigidity percolation docs lint format clean
+.PHONY: build run test test-asan fuzz test-slurm bench paper rigidity percolation docs lint format clean
 .DEFAULT_GOAL := build
 
 # Names other folders where the source folder cannot be written.
@@ -249,7 +249,8 @@ bench:
 	$(call install,$(BENCH_PACKAGES))
 	$(CONFIGURE) -DISOJAM_TESTS=ON -DISOJAM_BENCH=ON
 	cmake --build $(BUILD) -j $(JOBS) --target isojam_bench
-	$(BUILD)/isojam_bench --ratios $(BUILD)/ratios.json
+	$(BUILD)/isojam_bench --benchmark_out=$(BUILD)/bench.json
+	$(PYTHON) -B tests/bench/ratios.py $(BUILD)/bench.json $(BUILD)/ratios.json
 
 # The benchmarks of FILTER of this tree and of that of the commit BEFORE, in turn: make bench-against BEFORE=HEAD~5
 FILTER ?= .
@@ -263,9 +264,9 @@ bench-against:
 	git archive $(BEFORE) | tar -x -C $(BUILD)-before/tree
 	cmake -S $(BUILD)-before/tree -B $(BUILD)-before -G Ninja -DISOJAM_NATIVE=ON -DISOJAM_TESTS=ON -DISOJAM_BENCH=ON
 	cmake --build $(BUILD)-before -j $(JOBS) --target isojam_bench
-	$(PYTHON) -B tests/bench/against.py $(BUILD)-before/isojam_bench $(BUILD)/isojam_bench --filter '$(FILTER)'
+	$(PYTHON) -B tests/bench/ratios.py --against $(BUILD)-before/isojam_bench $(BUILD)/isojam_bench --filter '$(FILTER)'
 
-# The long tests of user-defined solids: 20 000 pairs against 100 digits, packings of all 145 polyhedra, and rounded
+# The long tests of user-defined solids: 20 000 pairs against 50 digits, packings of all 145 polyhedra, and rounded
 # dodecahedra beside exact ones.
 .PHONY: polyhedra
 polyhedra:
@@ -275,14 +276,6 @@ polyhedra:
 	ISOJAM_ORACLE_PAIRS=20500 $(BUILD)/tests/oracle/defined_pairs_tests
 	$(PYTHON) -B tests/polyhedra/jam_test.py $(BUILD)/isojam --all
 	$(PYTHON) -B tests/polyhedra/dodecahedra.py $(BUILD)/isojam
-
-# The cost of following equilibria towards jamming: the tables of docs/accuracy.md.
-equilibria:
-	$(call install,$(TEST_PACKAGES))
-	$(CONFIGURE) -DISOJAM_TESTS=ON
-	cmake --build $(BUILD) -j $(JOBS) --target isojam_equilibria
-	$(BUILD)/isojam_equilibria states 100 4
-	$(BUILD)/isojam_equilibria law 100 400 1000 4000 10000:2
 
 # The whole suite under the address and undefined-behaviour sanitizers, assertions on, in a directory of its own.
 test-asan:

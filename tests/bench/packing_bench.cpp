@@ -53,16 +53,6 @@ void evaluate(benchmark::State& state, int n, std::size_t threads, Precision pre
   }
 }
 
-/// Evaluates with a new neighbour list.
-void evaluate_afresh(benchmark::State& state, int n) {
-  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-  Turns turns(n);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(PackingEnergy().evaluate(turns.packing()).energy);
-    turns.next();
-  }
-}
-
 void hessian(benchmark::State& state, int n) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   Turns turns(n);
@@ -94,15 +84,6 @@ void block_cholesky(benchmark::State& state, int n, std::size_t threads) {
   if (!done) state.SkipWithError("not positive definite");
 }
 
-/// Factorisation in a minimiser whose contacts open and close: the symbolic part is repeated every time.
-void block_cholesky_afresh(benchmark::State& state, int n) {
-  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-  const System system = system_of(n);
-  bool done = true;
-  for (auto _ : state) done = BlockCholesky().factorise(system.matrix, system.shift) && done;
-  if (!done) state.SkipWithError("not positive definite");
-}
-
 /// SimplicialLDLT with approximate minimum degree and the lower half of the matrix. Its symbolic part is kept, so only
 /// the numerical part is timed.
 void simplicial_ldlt(benchmark::State& state, int n) {
@@ -129,31 +110,13 @@ void cholmod(benchmark::State& state, int n) {
   state.SetLabel(blas_in_use());
 }
 
-void block_cholesky_solve(benchmark::State& state, int n) {
-  const System system = system_of(n);
-  BlockCholesky factor;
-  if (!factor.factorise(system.matrix, system.shift)) return state.SkipWithError("not positive definite");
-  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(6 * n, -1, 1);
-  for (auto _ : state) benchmark::DoNotOptimize(factor.solve(b).data());
-}
-
-void simplicial_ldlt_solve(benchmark::State& state, int n) {
-  const System system = system_of(n);
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(lower_half(system.matrix, system.shift));
-  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(6 * n, -1, 1);
-  for (auto _ : state) benchmark::DoNotOptimize(Eigen::VectorXd(factor.solve(b)).data());
-}
-
 template <class Function, class... Arguments>
 benchmark::internal::Benchmark* add(const std::string& name, Function function, Arguments... arguments) {
   return benchmark::RegisterBenchmark(name.c_str(), function, arguments...);
 }
 
 bool register_all() {
-  for (const int n : {100, 1000, 10000}) {
-    add("evaluate/1_thread" + case_of(n), evaluate, n, 1, Precision::working);
-    add("evaluate/afresh" + case_of(n), evaluate_afresh, n);
-  }
+  for (const int n : {100, 1000, 10000}) add("evaluate/1_thread" + case_of(n), evaluate, n, 1, Precision::working);
   for (const std::size_t threads : {1, 2})
     add("evaluate/" + std::to_string(threads) + (threads == 1 ? "_thread" : "_threads") + case_of(400), evaluate, 400,
         threads, Precision::working)
@@ -162,13 +125,10 @@ bool register_all() {
   for (const int n : {100, 400}) {
     add("hessian/analytic" + case_of(n), hessian, n);
     add("factorise/simplicial_ldlt" + case_of(n), simplicial_ldlt, n);
-    add("factor_solve/simplicial_ldlt" + case_of(n), simplicial_ldlt_solve, n);
   }
   for (const int n : {100, 400, 800, 1000}) {
     add("factorise/cholmod" + case_of(n), cholmod, n);
     add("factorise/block_cholesky" + case_of(n), block_cholesky, n, 1);
-    add("factorise/block_cholesky_afresh" + case_of(n), block_cholesky_afresh, n);
-    add("factor_solve/block_cholesky" + case_of(n), block_cholesky_solve, n);
   }
   // Wall-clock time, because the ratio of the times on one and two cores is the gain by the second core.
   for (const int n : {400, 1000, 4000}) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/SparseCore>
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -58,32 +57,5 @@ class CholmodFactor {
 
 /// Description of the BLAS that CHOLMOD uses: its version, its kernels for this processor, and its number of threads.
 std::string blas_in_use();
-
-/// Largest relative difference between the volumes of another method and those of the contact loop, for the first
-/// `pairs` pairs.
-template <class Volume>
-double worst_difference(const PairSet& set, std::size_t pairs, const Volume& volume) {
-  double worst = 0;
-  for (std::size_t k = 0; k < pairs; ++k) {
-    SeparatingAxis unused;
-    const double ours = overlap(set.a(k), set.b(k), set.r(k), unused).volume;
-    const double difference = std::abs(volume(k) - ours) / ours;
-    if (!(difference <= worst)) worst = difference;  // also if the difference is NaN
-  }
-  return worst;
-}
-
-/// The same for S_A, for all pairs and relative to |S_A| of the contact loop.
-template <class Area>
-double worst_area_difference(const PairSet& set, const Area& area) {
-  double worst = 0;
-  for (std::size_t k = 0; k < set.size(); ++k) {
-    SeparatingAxis unused;
-    const Eigen::Vector3d ours = overlap(set.a(k), set.b(k), set.r(k), unused).area;
-    const double difference = (area(k) - ours).norm() / ours.norm();
-    if (!(difference <= worst)) worst = difference;
-  }
-  return worst;
-}
 
 }  // namespace isojam::bench

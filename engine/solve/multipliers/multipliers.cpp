@@ -42,7 +42,7 @@
 // A solution branch is smooth until it ends at a fold. There a packing rearranges and its energy decreases,
 // occasionally by orders of magnitude. The scales f and Δφ are then set again from the present forces.
 //
-// docs/accuracy.md has the figures printed by `make equilibria`.
+// docs/accuracy.md has the figures.
 
 namespace isojam {
 
