@@ -42,13 +42,4 @@ void compare_modes(std::span<const TaskEquilibria> tasks, const Measuring& measu
 /// is the relative error of V. Points of methods that compute S also contain its error.
 void compare_overlaps(const Measuring& measuring, ChartFamily& family);
 
-/// Compares settings of the protocol. The time is the CPU time of all replicates of a setting. Let m be their mean φ_J.
-/// The error is the absolute difference between m and the mean φ_J of the first setting, plus half the width of the
-/// 95 % confidence interval of m.
-void compare_protocols(const Measuring& measuring, ChartFamily& family);
-
-/// Measures the CPU time of a replicate with the default protocol, of one equilibrium, and of one evaluation, for
-/// several numbers of particles N. Fits a power of N to each. The points have no errors.
-void measure_growth(const Measuring& measuring, ChartFamily& family);
-
 }  // namespace isojam

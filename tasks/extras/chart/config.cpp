@@ -20,29 +20,8 @@ constexpr Range tolerance_range{0, 1, true};
 constexpr Range subspace_range{60, 1000};
 constexpr Range evaluation_range{10, 1e7};
 constexpr Range second_range{0, 1e6, true};
-constexpr Range step_range{0, 0.1, true};
-constexpr Range energy_range{1e-12, 1e-2};
 
 /// Visits every field with its key and range. One list serves for reading and writing, so the two cannot differ.
-template <class Config, class Visitor>
-void visit_phi_j(Config& config, const Visitor& visit) {
-  visit("solid", config.solid, Range{});
-  visit("replicates", config.replicates, Range{2, 1000});
-  visit("particles", config.particles, particle_range);
-  visit("consolidation_step", config.consolidation_step, step_range);
-  visit("target_energy", config.target_energy, energy_range);
-  visit("fit_window", config.fit_window, distance_range);
-  visit("residual", config.residual, tolerance_range);
-}
-
-template <class Config, class Visitor>
-void visit_growth(Config& config, const Visitor& visit) {
-  visit("solids", config.solids, Range{});
-  visit("particles", config.particles, particle_range);
-  visit("replicates", config.replicates, count_range);
-  visit("distances", config.distances, distance_range);
-}
-
 template <class Config, class Visitor>
 void visit_chart(Config& config, const Visitor& visit) {
   visit("compare", config.compare, Range{});
@@ -65,47 +44,23 @@ void visit_chart(Config& config, const Visitor& visit) {
   visit("total_seconds", config.total_seconds, second_range);
 }
 
-/// List of the keys that `visit` passes to a visitor.
-template <class Visit>
-std::vector<std::string_view> keys_of(const Visit& visit) {
-  std::vector<std::string_view> keys;
-  visit([&](std::string_view key, const auto&, const Range&) { keys.push_back(key); });
-  return keys;
-}
-
-/// Reads an object. `visit` passes every key with its value and range to a visitor.
-template <class Visit>
-void read_visited(const JsonPlace& place, const Visit& visit) {
-  place.expect_keys(keys_of(visit));
-  visit([&](const std::string& key, auto& value, const Range& range) {
-    place.read_if_any(key, [&](const JsonPlace& given) { read_option(given, range, value); });
-  });
-}
-
 void read_keys(const JsonPlace& root, ChartConfig& config) {
-  auto keys = keys_of([&](const auto& visitor) { visit_chart(config, visitor); });
-  keys.insert(keys.begin(), "$schema");
-  keys.insert(keys.end(), {"phi_j", "growth"});
+  std::vector<std::string_view> keys{"$schema"};
+  visit_chart(config, [&](std::string_view key, const auto&, const Range&) { keys.push_back(key); });
   root.expect_keys(keys);
   root.read_if_any("$schema", [](const JsonPlace& place) { place.text(); });
   visit_chart(config, [&](const std::string& key, auto& value, const Range& range) {
     root.read_if_any(key, [&](const JsonPlace& place) { read_option(place, range, value); });
   });
-  root.read_if_any("phi_j", [&](const JsonPlace& place) {
-    read_visited(place, [&](const auto& visitor) { visit_phi_j(config.phi_j, visitor); });
-  });
-  root.read_if_any("growth", [&](const JsonPlace& place) {
-    read_visited(place, [&](const auto& visitor) { visit_growth(config.growth, visitor); });
-  });
 }
 
 /// Reports an error if the cell would be too small at the highest density that the compression may reach.
-void check_particles(const JsonPlace& root, const std::string& key, SolidKind solid, int particles) {
+void check_particles(const JsonPlace& root, const ChartConfig& config, SolidKind solid) {
   const int least = least_particles(platonic(solid), JamOptions().compression.max_density);
-  if (particles >= least) return;
-  const JsonPlace place = root.has(key) ? root.at(key) : root;
+  if (config.particles >= least) return;
+  const JsonPlace place = root.has("particles") ? root.at("particles") : root;
   root.attempt([&] {
-    place.refuse_with_remedy(fmt::format("{} is too small for {}", particles, to_string(solid)),
+    place.refuse_with_remedy(fmt::format("{} is too small for {}", config.particles, to_string(solid)),
                              fmt::format("use at least {} particles", least));
   });
 }
@@ -128,15 +83,6 @@ ChartConfig full_chart_config() {
   config.rule_evaluations = 100000;
   config.point_seconds = 30;
   config.total_seconds = 3500;
-  config.phi_j.replicates = 8;
-  config.phi_j.particles = {100, 50, 200};
-  config.phi_j.consolidation_step = {0.02, 0.005, 0.01, 0.04};
-  config.phi_j.target_energy = {3.2e-5, 1e-6, 1e-8};
-  config.phi_j.fit_window = {0.02, 0.01, 0.05, 0.12};
-  config.phi_j.residual = {1e-6, 1e-9, 1e-4, 1e-3};
-  config.growth.solids = {SolidKind::tetrahedron, SolidKind::octahedron};
-  config.growth.particles = {64, 128, 256, 400};
-  config.growth.replicates = 2;
   return config;
 }
 
@@ -147,13 +93,7 @@ ChartConfig parse_chart_config(std::string_view text, const std::string& file) {
   ChartConfig config;
   root.attempt([&] { read_keys(root, config); });
   problems.refuse_any(document);
-  for (const SolidKind solid : config.solids) check_particles(root, "particles", solid, config.particles);
-  const auto fewest = [](const std::vector<int>& particles) {
-    return *std::min_element(particles.begin(), particles.end());
-  };
-  check_particles(root, "phi_j", config.phi_j.solid, fewest(config.phi_j.particles));
-  for (const SolidKind solid : config.growth.solids)
-    check_particles(root, "growth", solid, fewest(config.growth.particles));
+  for (const SolidKind solid : config.solids) check_particles(root, config, solid);
   problems.refuse_any(document);
   return config;
 }
@@ -161,12 +101,6 @@ ChartConfig parse_chart_config(std::string_view text, const std::string& file) {
 Json to_json(const ChartConfig& config) {
   Json json = Json::object();
   visit_chart(config, [&](const std::string& key, const auto& value, const Range&) { json[key] = option_json(value); });
-  const auto add_to = [](Json& object) {
-    return [&](const std::string& key, const auto& value, const Range&) { object[key] = option_json(value); };
-  };
-  json["phi_j"] = json["growth"] = Json::object();
-  visit_phi_j(config.phi_j, add_to(json["phi_j"]));
-  visit_growth(config.growth, add_to(json["growth"]));
   return json;
 }
 

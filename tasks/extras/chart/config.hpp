@@ -13,37 +13,13 @@
 namespace isojam {
 
 /// Comparisons of a chart, in the order in which they are measured.
-enum class Comparison { equilibrium, hessian, modes, overlap, atlas, phi_j, growth };
+enum class Comparison { equilibrium, hessian, modes, overlap, atlas };
 template <>
-inline constexpr std::array enum_names<Comparison>{EnumName{Comparison::equilibrium, "equilibrium"},
-                                                   EnumName{Comparison::hessian, "hessian"},
-                                                   EnumName{Comparison::modes, "modes"},
-                                                   EnumName{Comparison::overlap, "overlap"},
-                                                   EnumName{Comparison::atlas, "atlas"},
-                                                   EnumName{Comparison::phi_j, "phi_j"},
-                                                   EnumName{Comparison::growth, "growth"}};
+inline constexpr std::array enum_names<Comparison>{
+    EnumName{Comparison::equilibrium, "equilibrium"}, EnumName{Comparison::hessian, "hessian"},
+    EnumName{Comparison::modes, "modes"}, EnumName{Comparison::overlap, "overlap"},
+    EnumName{Comparison::atlas, "atlas"}};
 inline constexpr auto all_comparisons = all_of<Comparison>;
-
-/// Settings of the comparison phi_j. The first setting of the protocol consists of the first values of all lists. Every
-/// other setting differs from it in one parameter, which has another value of its list.
-struct PhiJConfig {
-  SolidKind solid = SolidKind::octahedron;
-  int replicates = 3;
-  std::vector<int> particles{64, 50};
-  std::vector<double> consolidation_step{0.02, 0.04};
-  std::vector<double> target_energy{3.2e-5, 1e-6};
-  std::vector<double> fit_window{0.02, 0.05, 0.1};
-  std::vector<double> residual{1e-6, 1e-3};
-};
-
-/// Settings of the comparison growth, which measures the CPU time as a function of N.
-struct GrowthConfig {
-  std::vector<SolidKind> solids{SolidKind::octahedron};
-  std::vector<int> particles{50, 100, 200};
-  int replicates = 2;  ///< number of replicates for each solid and N
-  /// distances Δφ of the equilibria that are timed
-  std::vector<double> distances{0.05, 0.03, 0.02, 0.012};
-};
 
 /// Configuration of a chart. The default values of the members are the default configuration, which takes less than
 /// five minutes on a machine with two cores.
@@ -70,8 +46,6 @@ struct ChartConfig {
   long rule_evaluations = 20000;
   double point_seconds = 10;   ///< wall-clock time after which a minimisation is stopped
   double total_seconds = 280;  ///< wall-clock time after which the chart is stopped
-  PhiJConfig phi_j;
-  GrowthConfig growth;
 };
 
 /// The configuration of a chart that takes an hour. It has larger packings and more settings. It has all Platonic

@@ -1,9 +1,7 @@
 #include "tasks/extras/chart/data.hpp"
 
-#include <map>
+#include <algorithm>
 
-#include "tasks/extras/chart/conclusion.hpp"
-#include "tasks/extras/chart/front.hpp"
 #include "tasks/io/version.hpp"
 
 namespace isojam {
@@ -14,20 +12,21 @@ Json to_json(const std::optional<Spread>& spread) {
   return {{"median", spread->median}, {"least", spread->least}, {"greatest", spread->greatest}, {"n", spread->n}};
 }
 
-/// For each point: true if it is on the Pareto front of its case (no other point is both faster and more accurate).
-std::vector<bool> on_fronts(std::span<const ChartPoint> points) {
-  std::map<std::string, std::vector<std::size_t>> tasks;
-  for (std::size_t k = 0; k < points.size(); ++k) tasks[points[k].task].push_back(k);
-  std::vector<bool> on_front(points.size(), false);
-  for (const auto& [task, indices] : tasks) {
-    std::vector<ChartPoint> some;
-    for (const std::size_t k : indices) some.push_back(points[k]);
-    for (const std::size_t k : pareto_front(some)) on_front[indices[k]] = true;
-  }
-  return on_front;
+bool usable(const ChartPoint& point) { return !point.failed && point.seconds && point.error; }
+
+/// True if the point is on the Pareto front of its case: no other point is better in time or error and not worse in the
+/// other quantity. Times and errors are medians. Of several equal points, only the first is on the front.
+bool on_front(std::span<const ChartPoint> points, const ChartPoint& point) {
+  const auto is_beaten_by = [&](const ChartPoint& other) {
+    if (!usable(other) || other.task != point.task) return false;
+    const auto here = std::pair(point.seconds->median, point.error->median),
+               there = std::pair(other.seconds->median, other.error->median);
+    return here == there ? &other < &point : there.first <= here.first && there.second <= here.second;
+  };
+  return usable(point) && std::none_of(points.begin(), points.end(), is_beaten_by);
 }
 
-Json to_json(const ChartPoint& point, bool on_front) {
+Json to_json(const ChartPoint& point, bool is_on_front) {
   return {{"case", point.task},
           {"method", point.method},
           {"setting", point.setting},
@@ -35,25 +34,18 @@ Json to_json(const ChartPoint& point, bool on_front) {
           {"error", to_json(point.error)},
           {"stopped", point.stopped},
           {"failed", point.failed},
-          {"on_front", on_front},
+          {"on_front", is_on_front},
           {"further", point.further}};
-}
-
-Json to_json(const GrowthFit& fit) {
-  return {{"case", fit.task},           {"method", fit.method},
-          {"exponent", fit.exponent},   {"half_width", fit.half_width ? Json(*fit.half_width) : Json(nullptr)},
-          {"prefactor", fit.prefactor}, {"n", fit.n}};
 }
 
 Json to_json(const ChartFamily& family) {
   Json points = Json::array();
-  const auto on_front = on_fronts(family.points);
-  for (std::size_t k = 0; k < family.points.size(); ++k) points.push_back(to_json(family.points[k], on_front[k]));
-  Json fits = Json::array();
-  for (const GrowthFit& fit : family.fits) fits.push_back(to_json(fit));
-  return {{"name", family.name},         {"error_is", family.error_is},
-          {"note", family.note},         {"ended", to_string(family.ended)},
-          {"points", std::move(points)}, {"fits", std::move(fits)}};
+  for (const ChartPoint& point : family.points) points.push_back(to_json(point, on_front(family.points, point)));
+  return {{"name", family.name},
+          {"error_is", family.error_is},
+          {"note", family.note},
+          {"ended", to_string(family.ended)},
+          {"points", std::move(points)}};
 }
 
 Json to_json(const AtlasRow& row) {
@@ -90,7 +82,7 @@ Json chart_data(const ChartConfig& config, const ChartResult& result) {
     lines.push_back(line);
   Json costs = Json::object();
   for (const PartCost& cost : result.costs) costs[cost.part] = cost.cpu_seconds;
-  return {{"schema", "isojam.chart.v1"},
+  return {{"schema", "isojam.chart.v2"},
           {"program", {{"version", version()}, {"git", git_hash()}, {"compiler", compiler()}}},
           {"threads", 1},
           {"config", isojam::to_json(config)},

@@ -62,33 +62,6 @@ ChartFamily overlap_family() {
       {}};
 }
 
-ChartFamily phi_j_family() {
-  return {
-      "phi_j",
-      "error of jamming density (95 % bound)",
-      "Mean jamming density over replicates; each setting differs from the first one in one parameter of the protocol. "
-      "Dots and thin bars: difference of the mean from that of the first setting, and the 95 % confidence interval of "
-      "the mean. Broad bars: 95 % confidence interval of the paired difference, if both settings have the same initial "
-      "configurations. Numbers belong to the broad bar, or to the thin bar if there is no broad one. The error in the "
-      "list of points is the far end of the thin bar. Times are sums over all replicates. φ_J depends physically on "
-      "the number of particles and on the target energy; these differences are not errors.",
-      FamilyEnd::complete,
-      {}};
-}
-
-ChartFamily growth_family() {
-  return {
-      "growth",
-      "no error: only the number of particles varies",
-      "CPU seconds of one thread against the number of particles. Replicate: the default protocol from random "
-      "placement to the jamming density, without measures. Equilibrium: one state of the decompression by the default "
-      "method, as the mean over several distances. Evaluation: energy and forces once, in doubles. Bars show the "
-      "spread over replicates. Lines: powers of N fitted to all points, with the 95 % confidence interval of the "
-      "exponent.",
-      FamilyEnd::complete,
-      {}};
-}
-
 }  // namespace
 
 std::vector<ChartFamily> empty_families(Comparison comparison) {
@@ -97,8 +70,6 @@ std::vector<ChartFamily> empty_families(Comparison comparison) {
     case Comparison::hessian: return {hessian_family()};
     case Comparison::modes: return {modes_family()};
     case Comparison::overlap: return {overlap_family()};
-    case Comparison::phi_j: return {phi_j_family()};
-    case Comparison::growth: return {growth_family()};
     case Comparison::atlas: return {};
   }
   return {};

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <stdexcept>
 
 #include "engine/solve/factor/shift_invert.hpp"
@@ -83,48 +82,16 @@ ComputedModes by_products(const BlockMatrix& matrix, double lambda_max, Index su
   return solve(matrix, operation, {.wanted = LanczosWanted::least, .subspace = subspace});
 }
 
-/// Points of a case, in the order in which their (method, setting) first occurs.
-class TaskPoints {
- public:
-  void add(const std::string& method, const std::string& setting, double seconds, const ComputedModes& found,
-           const VectorXd& right) {
-    auto [slot, is_new] = index_.try_emplace({method, setting}, all_.size());
-    if (is_new) all_.push_back({method, setting, {}, {}, {}, 0});
-    Samples& samples = all_[slot->second];
-    samples.seconds.push_back(seconds);
-    ++samples.stopped[found.stopped];
-    if (found.eigenvalues.size() == 0) {
-      ++samples.failed;
-      return;
-    }
-    const VectorXd lowest = right.head(found.eigenvalues.size());
-    const double error = ((found.eigenvalues - lowest).array().abs() / lowest.array().abs()).maxCoeff();
-    samples.errors.push_back(error);
-    if (!(error < worst_useful_mode)) {
-      ++samples.failed;
-      ++samples.stopped["wrong modes"];
-    }
-  }
+void add(TaskRuns& runs, const std::string& method, const std::string& setting, double seconds,
+         const ComputedModes& found, const VectorXd& right) {
+  if (found.eigenvalues.size() == 0) return runs.add(method, setting, seconds, {}, found.stopped, true);
+  const VectorXd lowest = right.head(found.eigenvalues.size());
+  const double error = ((found.eigenvalues - lowest).array().abs() / lowest.array().abs()).maxCoeff();
+  const bool is_wrong = !(error < worst_useful_mode);
+  runs.add(method, setting, seconds, error, is_wrong ? "wrong modes" : found.stopped, is_wrong);
+}
 
-  void append_to(std::vector<ChartPoint>& points, const std::string& task) const {
-    for (const Samples& samples : all_) {
-      points.push_back({task, samples.method, samples.setting, spread(samples.seconds), spread(samples.errors),
-                        reasons_text(samples.stopped), samples.failed > 0, Json::object()});
-    }
-  }
-
- private:
-  struct Samples {
-    std::string method, setting;
-    std::vector<double> seconds, errors;
-    std::map<std::string, int> stopped;
-    int failed;
-  };
-  std::map<std::pair<std::string, std::string>, std::size_t> index_;
-  std::vector<Samples> all_;
-};
-
-void compare(const Packing& packing, const Measuring& measuring, TaskPoints& points) {
+void compare_modes_of(const Packing& packing, const Measuring& measuring, TaskRuns& runs) {
   const BlockMatrix matrix = double_double_hessian(packing);
   ModeSet dense;
   const auto dense_seconds = timed(measuring, [&] { dense = dense_modes(matrix); });
@@ -133,11 +100,11 @@ void compare(const Packing& packing, const Measuring& measuring, TaskPoints& poi
     if (measuring.over()) return;
     ComputedModes found;
     const auto seconds = timed(measuring, [&] { found = work(); });
-    points.add(method, setting, spread(seconds)->median, found, dense.eigenvalues);
+    add(runs, method, setting, spread(seconds)->median, found, dense.eigenvalues);
   };
   // The dense solver is the reference for the other solvers. Its own error is its error bound.
-  points.add("dense", "all modes", spread(dense_seconds)->median,
-             {"converged", dense.eigenvalues * (1 + dense.relative_error)}, dense.eigenvalues);
+  add(runs, "dense", "all modes", spread(dense_seconds)->median,
+      {"converged", dense.eigenvalues * (1 + dense.relative_error)}, dense.eigenvalues);
   const Index all = dense.eigenvalues.size();
   for (const int subspace : measuring.config.subspaces) {
     const Index dimension = std::min<Index>(subspace, all);
@@ -153,13 +120,13 @@ void compare(const Packing& packing, const Measuring& measuring, TaskPoints& poi
 
 void compare_modes(std::span<const TaskEquilibria> tasks, const Measuring& measuring, ChartFamily& family) {
   for (const TaskEquilibria& task : tasks) {
-    TaskPoints points;
+    TaskRuns runs;
     for (const Packing& packing : task.packings) {
       if (measuring.over()) break;
       measuring.progress("modes, " + task.task);
-      compare(packing, measuring, points);
+      compare_modes_of(packing, measuring, runs);
     }
-    points.append_to(family.points, task.task);
+    runs.append_to(family.points, task.task);
   }
 }
 

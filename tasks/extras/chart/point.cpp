@@ -25,4 +25,22 @@ std::string reasons_text(const std::map<std::string, int>& counts) {
   return text;
 }
 
+void TaskRuns::add(const std::string& method, const std::string& setting, double seconds, std::optional<double> error,
+                   const std::string& reason, bool failed) {
+  auto runs = std::find_if(all_.begin(), all_.end(),
+                           [&](const Runs& each) { return each.method == method && each.setting == setting; });
+  if (runs == all_.end()) runs = all_.insert(all_.end(), {method, setting, {}, {}, {}, false});
+  runs->seconds.push_back(seconds);
+  if (error) runs->errors.push_back(*error);
+  ++runs->reasons[reason];
+  runs->failed |= failed;
+}
+
+void TaskRuns::append_to(std::vector<ChartPoint>& points, const std::string& task) const {
+  for (const Runs& runs : all_) {
+    points.push_back({task, runs.method, runs.setting, spread(runs.seconds), spread(runs.errors),
+                      reasons_text(runs.reasons), runs.failed, Json::object()});
+  }
+}
+
 }  // namespace isojam

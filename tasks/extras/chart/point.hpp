@@ -38,6 +38,25 @@ struct ChartPoint {
   Json further = Json::object();  ///< other numbers, by name; null if a number is not defined
 };
 
+/// Runs of several methods on the packings of one task.
+class TaskRuns {
+ public:
+  /// Adds a run. `reason` states why it stopped; `error` is nullopt if there is no result.
+  void add(const std::string& method, const std::string& setting, double seconds, std::optional<double> error,
+           const std::string& reason, bool failed);
+  /// Appends a point for each method and setting, in the order of their first runs.
+  void append_to(std::vector<ChartPoint>& points, const std::string& task) const;
+
+ private:
+  struct Runs {
+    std::string method, setting;
+    std::vector<double> seconds, errors;
+    std::map<std::string, int> reasons;
+    bool failed = false;
+  };
+  std::vector<Runs> all_;
+};
+
 /// States whether the points of a family are complete.
 enum class FamilyEnd {
   complete,
@@ -49,15 +68,6 @@ inline constexpr std::array enum_names<FamilyEnd>{EnumName{FamilyEnd::complete, 
                                                   EnumName{FamilyEnd::cut, "cut"},
                                                   EnumName{FamilyEnd::interrupted, "interrupted"}};
 
-/// CPU time of a method as a function of the number of particles N: seconds = prefactor · N^exponent.
-struct GrowthFit {
-  std::string task, method;
-  double exponent = 0, prefactor = 0;
-  /// half width of the 95 % confidence interval of the exponent; nullopt for fewer than three measurements
-  std::optional<double> half_width;
-  int n = 0;  ///< number of fitted measurements
-};
-
 /// Points with the same definition of time and error.
 // NOLINTNEXTLINE(bugprone-exception-escape): as above.
 struct ChartFamily {
@@ -66,7 +76,6 @@ struct ChartFamily {
   std::string note;      ///< description of the measurement
   FamilyEnd ended = FamilyEnd::complete;
   std::vector<ChartPoint> points;
-  std::vector<GrowthFit> fits{};  ///< fits to points that differ in the number of particles
 };
 
 }  // namespace isojam

@@ -76,8 +76,6 @@ class ChartRun {
       case Comparison::modes: return compare_modes(*equilibria_, measuring_, family("modes"));
       case Comparison::overlap: return compare_overlaps(measuring_, family("overlap"));
       case Comparison::atlas: return measure_atlas();
-      case Comparison::phi_j: return compare_protocols(measuring_, family("phi_j"));
-      case Comparison::growth: return measure_growth(measuring_, family("growth"));
     }
   }
 

@@ -47,9 +47,7 @@ inline constexpr double atlas_overlap_tolerance = 1e-6;
 /// precision. Takes seconds.
 std::vector<AtlasRow> overlap_atlas();
 
-/// Tests of energies and forces. In the smallest periodic cells, the energy is compared with a sum over all images. In
-/// other tests, the packing is rotated, translated or renumbered, the unit of length changes, or particles are
-/// exchanged. The energy must then not change, and the forces must only rotate with the packing. Takes seconds.
+/// Tests of energies in the smallest periodic cells, which are compared with a sum over all images. Takes seconds.
 std::vector<AtlasRow> packing_atlas();
 
 /// Tests of minimisers that start from strained states, from an equilibrium, from a packing with a vacancy and from an

@@ -5,7 +5,6 @@
 
 #include "engine/geometry/convex_solid.hpp"
 #include "engine/geometry/pose.hpp"
-#include "tasks/extras/chart/atlas/naive_clip.hpp"
 
 namespace isojam {
 
@@ -18,6 +17,12 @@ QuadQuaternion small_turn(double angle, const Eigen::Vector3d& axis);
 /// Rotation by 45° about the coordinate axis 0, 1 or 2.
 QuadQuaternion eighth_turn(int axis);
 QuadQuaternion operator*(const QuadQuaternion& p, const QuadQuaternion& q);
+
+/// The quantities of an overlap that the atlas compares.
+struct VolumeAndArea {
+  double volume = 0;
+  Eigen::Vector3d area = Eigen::Vector3d::Zero();  ///< S_A
+};
 
 /// Two solids in a designed position, and their overlap. The poses are in double-double: their error is at most 1e-31,
 /// so that rounding does not destroy the designed contact.

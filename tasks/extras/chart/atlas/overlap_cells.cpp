@@ -12,6 +12,7 @@
 #include "tasks/extras/chart/atlas/atlas.hpp"
 #include "tasks/extras/chart/atlas/cells.hpp"
 #include "tasks/extras/chart/atlas/constructed.hpp"
+#include "tasks/extras/chart/pairs/intersection.hpp"
 
 namespace isojam {
 
@@ -47,8 +48,13 @@ VolumeAndArea in_doubles(const ConstructedPair& pair) {
   return {found.volume, found.area};
 }
 
+/// Cuts A with one plane of B after another. If faces nearly coincide, the result can be wrong.
 VolumeAndArea naively(const ConstructedPair& pair) {
-  return naive_overlap(placed(pair.a, pair.at_a), placed(pair.b, pair.at_b), pair.at_b.position);
+  Pose at_a = pair.at_a, at_b = pair.at_b;
+  for (Pose* pose : {&at_a, &at_b}) pose->position_low.setZero(), pose->orientation_low.setZero();
+  const auto body = intersection<double>(platonic(pair.a), at_a, platonic(pair.b), at_b);
+  const auto area = body.area_and_moment(platonic(pair.a).arrays().faces).first;
+  return {body.volume(), {area[0], area[1], area[2]}};
 }
 
 const std::array<Kernel, 3>& kernels() {

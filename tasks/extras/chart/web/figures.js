@@ -170,6 +170,5 @@ function familyFigure(family) {
 
 const familyTitles = {
   equilibrium: 'Equilibrium', bias: 'Effect on the jamming density', hessian: 'Hessian', modes: 'Lowest modes',
-  overlap: 'Overlap of two solids', phi_j: 'Jamming density: cost and effect of each parameter',
-  growth: 'Cost against number of particles',
+  overlap: 'Overlap of two solids',
 };

@@ -25,11 +25,8 @@ function pointTable(family) {
       element('tbody', {}, ...rows))));
 }
 
-/// Families that do not compare errors and times have figures of their own.
-const figuresOf = {phi_j: protocolFigure, growth: growthFigure};
-
 function drawFamily(family, place) {
-  const figure = (figuresOf[family.name] ?? familyFigure)(family);
+  const figure = familyFigure(family);
   const section = element('section', {});
   place.append(section);
   if (figure.absent) {

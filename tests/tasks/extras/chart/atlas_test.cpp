@@ -2,6 +2,7 @@
 
 #include <map>
 #include <set>
+#include <span>
 
 #include "tasks/extras/chart/atlas/atlas.hpp"
 #include "tests/tasks/extras/chart/atlas_expected.hpp"
@@ -54,9 +55,9 @@ void check(const std::vector<AtlasRow>& rows, std::span<const ExpectedCells> tab
               verdicts["fails"]);
 }
 
-TEST(Atlas, Overlaps) { check(overlap_atlas(), expected_overlaps()); }
+TEST(Atlas, Overlaps) { check(overlap_atlas(), expected_overlaps); }
 
-TEST(Atlas, Packings) { check(packing_atlas(), expected_packings()); }
+TEST(Atlas, Packings) { check(packing_atlas(), expected_packings); }
 
 TEST(Atlas, SameBitsEveryTime) {
   const std::vector<AtlasRow> rows = stability_atlas({.jammed_states = false}), again = packing_atlas();
@@ -78,9 +79,9 @@ TEST(AtlasOfJammedStates, StoppedCellsGiveNoRow) {
   EXPECT_EQ(modes_atlas(states(), stopped.get_token()).size(), 0);
 }
 
-TEST(AtlasOfJammedStates, Minimisers) { check(minimiser_atlas(states()), expected_minimisers()); }
+TEST(AtlasOfJammedStates, Minimisers) { check(minimiser_atlas(states()), expected_minimisers); }
 
-TEST(AtlasOfJammedStates, Modes) { check(modes_atlas(states()), expected_modes()); }
+TEST(AtlasOfJammedStates, Modes) { check(modes_atlas(states()), expected_modes); }
 
 }  // namespace
 }  // namespace isojam::test

@@ -54,9 +54,7 @@ TEST(ChartStop, ASignalKeepsTheMeasurements) {
       {R"(["equilibrium", "hessian"])",
        {{"equilibrium", "interrupted"}, {"bias", "interrupted"}, {"hessian", "interrupted"}},
        true},
-      {R"(["overlap", "atlas", "phi_j"])",
-       {{"overlap", "complete"}, {"atlas", "interrupted"}, {"phi_j", "interrupted"}}},
-      {R"(["overlap", "phi_j"])", {{"overlap", "complete"}, {"phi_j", "interrupted"}}},
+      {R"(["overlap", "atlas"])", {{"overlap", "complete"}, {"atlas", "interrupted"}}},
   };
   for (const Case& each : all) {
     const Interrupted found = interrupted_chart(each.compared, each.at_once);

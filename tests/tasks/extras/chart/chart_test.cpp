@@ -4,9 +4,7 @@
 
 #include <limits>
 
-#include "tasks/extras/chart/conclusion.hpp"
 #include "tasks/extras/chart/data.hpp"
-#include "tasks/extras/chart/front.hpp"
 #include "tasks/extras/chart/run_chart.hpp"
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/parse.hpp"
@@ -34,13 +32,7 @@ TEST(ChartConfig, HasTheDefaultsOfItsSchema) {
   const Json properties = test::schema("chart").at("properties"), defaults = to_json(ChartConfig());
   for (const auto& item : defaults.items()) {
     ASSERT_TRUE(properties.contains(item.key())) << item.key();
-    const Json& property = properties.at(item.key());
-    if (!item.value().is_object()) {
-      EXPECT_EQ(property.at("default"), item.value()) << item.key();
-      continue;
-    }
-    for (const auto& inner : item.value().items())
-      EXPECT_EQ(property.at("properties").at(inner.key()).at("default"), inner.value()) << inner.key();
+    EXPECT_EQ(properties.at(item.key()).at("default"), item.value()) << item.key();
   }
 }
 
@@ -52,7 +44,7 @@ struct BadConfig {
 TEST(ChartConfig, RejectsInvalidConfigurations) {
   const std::vector<BadConfig> all{
       {R"({"tolerance": [1e-6]})", "/tolerance", "\"tolerances\"", "tolerances"},
-      {R"({"phi_j": {"replicate": 3}})", "/phi_j/replicate", "\"replicates\"", "replicates"},
+      {R"({"phi_j": {}})", "/phi_j", "\"pairs\"", ""},
       {R"({"solids": ["octahedral"]})", "/solids/0", "\"octahedron\"", "octahedron"},
       {R"({"compare": ["mode"]})", "/compare/0", "\"modes\"", "modes"},
       {R"({"distances": [0.04, 0]})", "/distances/1", "a number in [0.001, 0.2]", ""},
@@ -60,11 +52,7 @@ TEST(ChartConfig, RejectsInvalidConfigurations) {
       {R"({"tolerances": [1e-6, 1e-6]})", "/tolerances/1", "each value once", ""},
       {R"({"repetitions": 0.5})", "/repetitions", "an integer from 1 to 1000", ""},
       {R"({"point_seconds": 0})", "/point_seconds", "a number in (0, 1000000]", ""},
-      {R"({"phi_j": {"replicates": 1}})", "/phi_j/replicates", "an integer from 2", ""},
       {R"({"particles": 8, "solids": ["tetrahedron"]})", "/particles", "at least", "", false},
-      {R"({"growth": {"distance": [0.03]}})", "/growth/distance", "\"distances\"", "distances"},
-      {R"({"growth": {"particles": [50, 50]}})", "/growth/particles/1", "each value once", ""},
-      {R"({"growth": {"particles": [100, 8]}})", "/growth", "at least", "", false},
   };
   for (const BadConfig& bad : all) {
     try {
@@ -81,14 +69,12 @@ TEST(ChartConfig, RejectsInvalidConfigurations) {
 
 TEST(ChartConfig, ReportsAllErrorsAtOnce) {
   try {
-    parse_chart_config(R"({"distances": [0.04, 0, 1], "tolerance": 1, "phi_j": {"replicates": 1, "solid": 1}})",
-                       "bad.json");
+    parse_chart_config(R"({"distances": [0.04, 0, 1], "tolerance": 1, "pairs": 0})", "bad.json");
     ADD_FAILURE();
   } catch (const InputError& error) {
     std::vector<std::string> pointers;
     for (const auto& each : error.all()) pointers.push_back(each.pointer);
-    EXPECT_EQ(pointers, (std::vector<std::string>{"/distances/1", "/distances/2", "/tolerance", "/phi_j/replicates",
-                                                  "/phi_j/solid"}));
+    EXPECT_EQ(pointers, (std::vector<std::string>{"/distances/1", "/distances/2", "/tolerance", "/pairs"}));
   }
 }
 
@@ -108,13 +94,20 @@ ChartPoint made_up(const std::string& task, const std::string& method, double se
 }
 
 TEST(ChartFront, ContainsTheBestPoints) {
-  const std::vector<ChartPoint> points{
-      made_up("t", "slow and exact", 9, 1e-9), made_up("t", "beaten", 5, 1e-3),
-      made_up("t", "fast", 1, 1e-2),           made_up("t", "good", 4, 1e-6),
-      made_up("t", "same as good", 4, 1e-6),   made_up("t", "failed", 0.1, 0, true),
-      made_up("t", "no error", 0.1, {}),       made_up("t", "as fast, worse", 1, 1e-1)};
-  EXPECT_EQ(pareto_front(points), (std::vector<std::size_t>{2, 3, 0}));
-  EXPECT_TRUE(pareto_front({}).empty());
+  const ChartFamily family{
+      "equilibrium",
+      "error",
+      "note",
+      FamilyEnd::complete,
+      {made_up("t", "slow and exact", 9, 1e-9), made_up("t", "beaten", 5, 1e-3), made_up("t", "fast", 1, 1e-2),
+       made_up("t", "good", 4, 1e-6), made_up("t", "same as good", 4, 1e-6), made_up("t", "failed", 0.1, 0, true),
+       made_up("t", "no error", 0.1, {}), made_up("t", "as fast, worse", 1, 1e-1),
+       made_up("another case", "alone", 100, 1)}};
+  std::vector<std::string> front;
+  for (const Json& point : chart_data(ChartConfig(), {{family}, {}, {}}).at("families")[0].at("points")) {
+    if (point.at("on_front")) front.push_back(point.at("method"));
+  }
+  EXPECT_EQ(front, (std::vector<std::string>{"slow and exact", "fast", "good", "alone"}));
 }
 
 TEST(ChartSpread, IsOfFiniteValues) {
@@ -143,72 +136,49 @@ std::vector<ChartPoint> made_up_equilibrium() {
   return points;
 }
 
-TEST(ChartConclusion, RanksByCasesThenByTime) {
-  const auto ranking = standings(made_up_equilibrium(), 1e-6);
-  ASSERT_EQ(ranking.size(), 4);
-  // Newton and FIRE reach both cases; Newton needs 1 + 3 s with its faster setting. L-BFGS is faster in the case that
-  // it reaches.
-  EXPECT_EQ(ranking[0].method, "newton");
-  EXPECT_EQ(ranking[0].reached, 2);
-  EXPECT_DOUBLE_EQ(ranking[0].seconds, 4);
-  EXPECT_EQ(ranking[1].method, "fire");
-  EXPECT_EQ(ranking[2].method, "lbfgs");
-  EXPECT_EQ(ranking[2].tasks, 2);
-  EXPECT_EQ(ranking[3].reached, 0);
-}
-
-TEST(ChartConclusion, IsInSentencesAboutTheRequestedResiduals) {
+TEST(ChartConclusion, CountsTheCasesThatEachMethodReaches) {
   ChartPoint bias = made_up("a", "by energy", 1, 0.004);
   bias.setting = "energy change 1e-12";
-  const auto lines = conclusion(made_up_equilibrium(), std::vector{bias});
-  const std::vector<std::string> expected{
-      "The residual 1e-06 is reached in all 2 cases only by newton and fire. The fastest method is lbfgs in 1 of 2 "
-      "cases "
-      "and newton in 1. It is missed by lbfgs in 1 of 2 cases.",
-      "The residual 1e-09 is reached by no method in all 2 cases; newton reaches it in the most, 1 of 2. newton is the "
-      "fastest in all of them. It is missed by lbfgs in 2 of 2 cases, fire in 1 and newton in 1.",
-      "The paper's rule stops a minimisation at energy changes below 1e-12. It stops in 1 of 1 cases, with residuals "
-      "up to 0.2 and errors of phi_J up to 0.004."};
-  EXPECT_EQ(lines, expected);
+  // Newton and FIRE reach both cases. L-BFGS is the fastest in the case that it reaches.
+  EXPECT_EQ(conclusion(made_up_equilibrium(), std::vector{bias}),
+            (std::vector<std::string>{
+                "The residual 1e-06 is reached by newton in 2 of 2 cases, as the fastest in 1; fire in 2 of 2 cases; "
+                "lbfgs in 1 of 2 cases, as the fastest in 1.",
+                "The residual 1e-09 is reached by newton in 1 of 2 cases, as the fastest in 1; fire in 1 of 2 cases; "
+                "lbfgs in 0 of 2 cases.",
+                "The paper's rule stops a minimisation at energy changes below 1e-12. It stops in 1 of 1 cases, with "
+                "residuals up to 0.2 and errors of phi_J up to 0.004."}));
   EXPECT_EQ(conclusion({}, {}), std::vector<std::string>{"No minimiser was measured."});
-  auto hopeless = made_up("a", "fire", 1, 0.5, true);
-  hopeless.setting = "residual 1e-03";
-  EXPECT_EQ(
-      conclusion(std::vector{hopeless}, {}),
-      std::vector<std::string>{"The residual 0.001 is reached by no method in any case. It is missed by fire in 1 "
-                               "of 1 cases."});
 }
 
-TEST(ChartConclusion, StatesWhereAMethodIsFasterOrFails) {
-  std::vector<ChartPoint> points;
-  for (const std::string distance : {"0.1", "0.03", "0.01"}) {
-    for (const std::string solid : {"cube", "tetrahedron"}) {
-      const auto task = solid + ", Δφ = " + distance;
-      const bool near = distance == "0.01", far = distance == "0.1";
-      points.push_back(made_up(task, "newton", near ? 5 : 1, 1e-8));
-      points.push_back(made_up(task, "multipliers", 2, 1e-8));
-      points.push_back(made_up(task, "conjugate_gradient", 9, far ? 1e-7 : 1e-2, !far));
-    }
+// ---- Tables -----------------------------------------------------------------------------------------------------
+
+TEST(ChartTable, HasALetterForEveryCellOfTheAtlas) {
+  using enum AtlasVerdict;
+  ChartResult result;
+  result.atlas = ChartAtlas{FamilyEnd::cut, {}};
+  for (const std::string setting : {"1e-4", "1e-6"}) {
+    result.atlas->rows.push_back({"depth", setting, "ours", true, holds, "error 0", "within"});
+    result.atlas->rows.push_back({"depth", setting, "naive", false, setting == "1e-4" ? holds : fails, "error 1", "?"});
   }
-  for (ChartPoint& point : points) point.setting = "residual 1e-06";
-  const std::string expected =
-      "The residual 1e-06 is reached in all 6 cases only by multipliers and newton. The fastest method is newton in 4 "
-      "of "
-      "6 cases at Δφ ≥ 0.03 and multipliers in 2 at Δφ ≤ 0.01. It is missed by conjugate gradient in 4 of 6 cases at "
-      "Δφ ≤ 0.03.";
-  EXPECT_EQ(conclusion(points, {}), std::vector<std::string>{expected});
+  result.atlas->rows.push_back({"cubes", "one", "ours", true, refuses, "density 1", "limit"});
+  const std::string text = text_table(result), pad(50, ' ');
+  EXPECT_NE(text.find("atlas (interrupted by the time limit): 3 cells hold (h), 1 refuse (r), 1 fail (f)"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("\ndepth: 1e-4, 1e-6\n  naive " + pad + "hf\n  ours * " + pad.substr(1) + "hh\ncubes: one\n"),
+            std::string::npos)
+      << text;
 }
 
 // ---- Real charts ------------------------------------------------------------------------------------------------
 
 ChartConfig tiny_config() {
   return parse_chart_config(
-      R"({"compare": ["equilibrium", "hessian", "modes", "overlap", "phi_j", "growth"], "solids": ["dodecahedron"], "particles": 24, "packings": 1, "distances": [0.08, 0.05], "fit_window": 0.1,
+      R"({"compare": ["equilibrium", "hessian", "modes", "overlap"], "solids": ["dodecahedron"], "particles": 24,
+          "packings": 1, "distances": [0.08, 0.05], "fit_window": 0.1,
           "tolerances": [1e-2, 1e-6], "difference_steps": [1e-7], "shifts": [1e-11], "subspaces": [100], "pairs": 3,
-          "repetitions": 1, "max_evaluations": 300, "rule_evaluations": 600, "point_seconds": 100, "total_seconds": 1000,
-          "phi_j": {"solid": "dodecahedron", "replicates": 2, "particles": [24], "consolidation_step": [0.04],
-                    "target_energy": [1e-5], "fit_window": [0.05, 0.1], "residual": [1e-6]},
-          "growth": {"solids": ["dodecahedron"], "particles": [24, 30], "replicates": 1, "distances": [0.05]}})",
+          "repetitions": 1, "max_evaluations": 300, "rule_evaluations": 600, "point_seconds": 100, "total_seconds": 1000})",
       "tiny");
 }
 
@@ -222,7 +192,6 @@ Json without_times(Json data) {
   data.erase("conclusion");
   data.erase("cpu_seconds");
   for (Json& family : data.at("families")) {
-    family.erase("fits");
     for (Json& point : family.at("points")) {
       point.erase("seconds");
       point.erase("on_front");
@@ -242,7 +211,7 @@ TEST(Chart, OfEverythingConformsAndIsReproducible) {
     EXPECT_FALSE(family.at("points").empty()) << family.at("name");
     for (const Json& point : family.at("points")) EXPECT_FALSE(point.at("seconds").is_null()) << point;
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"equilibrium", "bias", "hessian", "modes", "overlap", "phi_j", "growth"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"equilibrium", "bias", "hessian", "modes", "overlap"}));
   EXPECT_EQ(without_times(data).dump(), without_times(tiny_data()).dump());
   auto damaged = data;
   damaged["families"][0]["points"][0].erase("stopped");
@@ -255,7 +224,7 @@ TEST(Chart, StatesThatItsTimeWasOver) {
   config.total_seconds = 1e-3;
   Console console({.quiet = true});
   const ChartResult result = run_chart(config, {}, console);
-  ASSERT_EQ(result.families.size(), 7);
+  ASSERT_EQ(result.families.size(), 5);
   for (const ChartFamily& family : result.families) EXPECT_EQ(family.ended, FamilyEnd::cut) << family.name;
   ASSERT_TRUE(result.atlas);
   EXPECT_EQ(result.atlas->ended, FamilyEnd::cut);
