@@ -301,4 +301,9 @@ std::vector<FlatColumn> columns_of(const Fields& fields, const std::string& poin
   return columns;
 }
 
+bool is_text(const FieldEntry& field) {
+  const auto core = core_of(field);
+  return std::holds_alternative<std::string*>(core.member) || std::holds_alternative<Choice>(core.member);
+}
+
 }  // namespace isojam

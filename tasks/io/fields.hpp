@@ -35,5 +35,7 @@ struct FlatColumn {
   bool can_be_absent = false;  ///< true if the field or an object around it can be absent
 };
 std::vector<FlatColumn> columns_of(const Fields& fields, const std::string& pointer = "");
+/// True if the values of a field are texts.
+bool is_text(const FieldEntry& field);
 
 }  // namespace isojam

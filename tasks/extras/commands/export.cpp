@@ -17,17 +17,15 @@ namespace isojam {
 namespace fs = std::filesystem;
 namespace {
 
-bool is_table(Exported what) {
-  return what == Exported::contacts || what == Exported::replicates || what == Exported::states;
-}
+bool is_of_packings(Exported what) { return what == Exported::gsd || what == Exported::vtp || what == Exported::xyz; }
 
 /// Throws if an option has no effect on the chosen format.
 void check_options(const ExportArguments& arguments) {
   const auto format = to_string(arguments.what);
-  if (!is_table(arguments.what) && arguments.output.empty())
+  if (is_of_packings(arguments.what) && arguments.output.empty())
     throw UsageError(
         fmt::format("--format {} needs an output; give a file with -o, or a directory for all replicates", format));
-  if (arguments.path && (arguments.what == Exported::replicates || arguments.what == Exported::states))
+  if (arguments.path && !is_of_packings(arguments.what) && arguments.what != Exported::contacts)
     throw UsageError(
         fmt::format("--path cannot be combined with --format {}; use it with packings or contacts", format));
   if (arguments.contacts && arguments.what != Exported::gsd && arguments.what != Exported::vtp)
@@ -36,7 +34,7 @@ void check_options(const ExportArguments& arguments) {
 
 ExitCode export_results(const ExportArguments& arguments, Console& console) {
   check_options(arguments);
-  return is_table(arguments.what) ? export_rows(arguments, console) : export_packings(arguments, console);
+  return is_of_packings(arguments.what) ? export_packings(arguments, console) : export_rows(arguments, console);
 }
 
 std::string record_file(const ExportArguments& arguments, const std::string& name) {
@@ -71,18 +69,19 @@ bool has_packing(const ExportArguments& arguments, const RecordedReplicate& held
 void add_export(CLI::App& app, Session& session) {
   ExportArguments* arguments = nullptr;
   auto options = add_command(app, session, "export",
-                             "Export packings (GSD, VTP, XYZ), or a table of contacts, replicates or states",
+                             "Export packings (GSD, VTP, XYZ), a table of contacts, replicates or states, or solids",
                              export_results, arguments);
   options.results_directory(arguments->directory);
   options.text("replicate", arguments->replicate, "Name of the replicate (its file in records/ without .json), or all",
                "REPLICATE", Options::Need::required);
   options.choice("--format", arguments->what,
-                 "Format of the packings (gsd, vtp, xyz), or table to export (contacts, replicates, states)",
+                 "Format of the packings (gsd, vtp, xyz), table to export (contacts, replicates, states), or shapes of "
+                 "the solids as JSON (solids)",
                  Options::Need::required);
   options.text(
       "-o,--output", arguments->output,
-      "Packings: output file, or a directory for all replicates. Tables: output file (default: standard output); JSON "
-      "lines if its name ends in .jsonl, otherwise CSV",
+      "Packings: output file, or a directory for all replicates. Tables and solids: output file (default: standard "
+      "output); a table is JSON lines if the name ends in .jsonl, otherwise CSV",
       "FILE");
   options.flag("--path", arguments->path, "Export all states of the decompression (needs keep_path in the manifest)");
   options.flag("--contacts", arguments->contacts,

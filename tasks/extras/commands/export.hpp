@@ -12,16 +12,17 @@
 
 namespace isojam {
 
-/// Formats of an export. The first three are for packings. The others are tables with one row per contact, replicate or
-/// state.
-enum class Exported { gsd, vtp, xyz, contacts, replicates, states };
+/// Formats of an export. The first three are for packings. The next three are tables with one row per contact, replicate
+/// or state. The last one is a JSON object with the shapes of the solids.
+enum class Exported { gsd, vtp, xyz, contacts, replicates, states, solids };
 template <>
 inline constexpr std::array enum_names<Exported>{EnumName{Exported::gsd, "gsd"},
                                                  EnumName{Exported::vtp, "vtp"},
                                                  EnumName{Exported::xyz, "xyz"},
                                                  EnumName{Exported::contacts, "contacts"},
                                                  EnumName{Exported::replicates, "replicates"},
-                                                 EnumName{Exported::states, "states"}};
+                                                 EnumName{Exported::states, "states"},
+                                                 EnumName{Exported::solids, "solids"}};
 
 struct ExportArguments {
   std::string directory;  ///< results directory
@@ -56,7 +57,7 @@ bool has_packing(const ExportArguments& arguments, const RecordedReplicate& held
 /// Writes files with packings for other programs, and prints the paths of these files to standard output.
 ExitCode export_packings(const ExportArguments& arguments, Console& console);
 
-/// Writes a table as CSV, or as JSON lines if the output path ends in .jsonl.
+/// Writes a table as CSV, or as JSON lines if the output path ends in .jsonl; or the solids as JSON.
 ExitCode export_rows(const ExportArguments& arguments, Console& console);
 
 }  // namespace isojam

@@ -40,6 +40,22 @@ void append_contacts(const ExportArguments& arguments, const RecordedReplicate& 
   }
 }
 
+/// The solids of these replicates: {name: {"vertices": [[x, y, z], …], "faces": [[index, …], …]}, …}.
+Json solids_of(const ExportArguments& arguments, const std::vector<std::string>& names,
+               const std::optional<Plan>& plan) {
+  Json solids = Json::object();
+  for (const auto& name : names) {
+    const auto held = own_record(arguments, plan, name);
+    for (const auto& kind : held.summary.solid.kinds()) {
+      Json& solid = solids[kind.solid->name()];
+      if (!solid.is_null()) continue;
+      for (const auto& v : kind.solid->vertices()) solid["vertices"].push_back({v[0], v[1], v[2]});
+      for (const auto& face : kind.solid->faces()) solid["faces"].push_back(face.vertices);
+    }
+  }
+  return solids;
+}
+
 }  // namespace
 
 ExitCode export_rows(const ExportArguments& arguments, Console& console) {
@@ -47,6 +63,12 @@ ExitCode export_rows(const ExportArguments& arguments, Console& console) {
   const auto names = chosen_names(arguments);
   const auto manifest = stored_manifest(arguments.directory);
   const auto plan = manifest ? std::optional<Plan>(*manifest) : std::nullopt;
+  if (arguments.what == Exported::solids) {
+    Output output(arguments.output);
+    output.append(pretty(solids_of(arguments, names, plan)));
+    output.finish();
+    return ExitCode::done;
+  }
   const auto format = format_of(arguments.output);
   const auto of = arguments.what == Exported::states ? RowOf::state : RowOf::replicate;
   const RecordRows rows(of, format, manifest, own_record(arguments, plan, names.front()));

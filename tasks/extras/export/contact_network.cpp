@@ -51,6 +51,11 @@ const Columns& contact_columns() {
   return columns;
 }
 
+const Columns& contact_texts() {
+  static const Columns texts{"replicate", "class", "kind", "solid_a", "solid_b"};
+  return texts;
+}
+
 std::string contact_lines(RowFormat format, const StateName& name, const Packing& packing) {
   std::string text;
   for (const auto& contact : contact_network(packing))

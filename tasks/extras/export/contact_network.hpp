@@ -34,6 +34,8 @@ struct StateName {
 /// and b. `image` has three integers n_i: the centre of the touching image of b is x_b + Σ n_i·(lattice vector i). The
 /// class depends on the fitted cut-offs, and the kind on the shape of the intersection, see ContactKind.
 const Columns& contact_columns();
+/// The columns with texts.
+const Columns& contact_texts();
 /// The rows of all contacts of one state.
 std::string contact_lines(RowFormat format, const StateName& name, const Packing& packing);
 

@@ -1,10 +1,12 @@
 #include "tasks/extras/export/record_rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <utility>
 
-#include "tasks/measure/quantity.hpp"
+#include "tasks/io/fields.hpp"
+#include "tasks/measure/measure.hpp"
 #include "tasks/tables/lines.hpp"
 
 namespace isojam {
@@ -64,19 +66,45 @@ std::vector<Measure> measures_of(const std::optional<Manifest>& manifest, const 
   return manifest ? manifest->measures : first.summary.measures;
 }
 
+std::size_t nearest_of(const RecordedReplicate& held) { return static_cast<std::size_t>(*held.document.nearest.value); }
+
+/// The fields of a state or a record, without those of its measures.
+Fields without_measures(Fields fields) {
+  for (const Measure measure : all_measures) {
+    for (const auto& part : {definition_of(measure).state, definition_of(measure).replicate}) {
+      for (const auto& entry : part.fields ? part.fields().list : std::vector<FieldEntry>{})
+        std::erase_if(fields.list, [&](const FieldEntry& field) { return field.key == entry.key; });
+    }
+  }
+  return fields;
+}
+
+/// True for a field of a kind of particles that no mixture of the study has. Single solids have no fields of kinds.
+bool is_of_more_kinds(const std::string& pointer, std::size_t kinds) {
+  constexpr std::string_view kind = "/kind_";
+  const auto found = pointer.find(kind);
+  return found != std::string::npos && (kinds == 1 || std::stoul(pointer.substr(found + kind.size())) > kinds);
+}
+
 }  // namespace
 
 RecordRows::RecordRows(RowOf of, RowFormat format, const std::optional<Manifest>& manifest,
                        const RecordedReplicate& first)
     : of_(of), format_(format), exclude_(manifest ? manifest->exclude : usually_excluded()) {
+  const auto measures = measures_of(manifest, first);
+  const auto kinds = kinds_of(manifest, first);
   add_head(swept_names(manifest, first));
-  add_state();
-  add_quantities(measures_of(manifest, first), kinds_of(manifest, first));
-  if (of_ == RowOf::replicate) {
-    add("evaluations", [](const Source& s) { return s.held.record.at("evaluations"); });
-    add("cpu_seconds", [](const Source& s) { return s.held.record.at("timing").at("cpu_seconds"); });
+  add_fields(without_measures(fields_of<StateRow>()), Quantity::Of::state, kinds);
+  add_quantities(measures, kinds);
+  const auto add_part = [&](const MeasurePart& part, Quantity::Of what) {
+    if (part.fields) add_fields(part.fields(), what, kinds);
+  };
+  for (const Measure measure : measures) {
+    add_part(definition_of(measure).state, Quantity::Of::state);
+    if (of_ == RowOf::replicate) add_part(definition_of(measure).replicate, Quantity::Of::replicate);
   }
-  add("reasons", [this](const Source& s) { return reasons(s); });
+  if (of_ == RowOf::replicate) add_fields(without_measures(fields_of<Record>()), Quantity::Of::replicate, kinds);
+  add_text("reasons", [this](const Source& s) { return reasons(s); });
 }
 
 /// Some quantities have the same name as a number that every state has. The two are then equal, and only one is added.
@@ -86,9 +114,15 @@ void RecordRows::add(std::string name, Value value) {
   values_.push_back(std::move(value));
 }
 
+void RecordRows::add_text(const std::string& name, Value value) {
+  const auto before = columns_.size();
+  add(name, std::move(value));
+  if (columns_.size() > before) texts_.push_back(name);
+}
+
 void RecordRows::add_head(const std::vector<std::string>& parameters) {
-  add("replicate", [](const Source& s) { return s.held.name; });
-  add("solid", [](const Source& s) { return to_string(s.held.summary.solid); });
+  add_text("replicate", [](const Source& s) { return s.held.name; });
+  add_text("solid", [](const Source& s) { return to_string(s.held.summary.solid); });
   add("particles", [](const Source& s) { return s.held.summary.particles; });
   for (const auto& name : parameters) {
     add(parameter_head(name),
@@ -96,24 +130,41 @@ void RecordRows::add_head(const std::vector<std::string>& parameters) {
   }
   add("number", [](const Source& s) { return s.held.summary.replicate; });
   if (of_ == RowOf::replicate) {
-    add("status", [](const Source& s) { return s.held.record.at("status"); });
-    add("failed_in", [](const Source& s) { return copy_of(value_at(s.held.record, "/failure/where")); });
-    add("failure", [](const Source& s) { return copy_of(value_at(s.held.record, "/failure/why")); });
+    add_text("status", [](const Source& s) { return s.held.record.at("status"); });
+    add_text("failed_in", [](const Source& s) { return copy_of(value_at(s.held.record, "/failure/where")); });
+    add_text("failure", [](const Source& s) { return copy_of(value_at(s.held.record, "/failure/why")); });
   }
-  add("flags", [](const Source& s) {
+  add_text("flags", [](const Source& s) {
     const auto& flags = s.held.record.at("flags");
     return flags.is_null() ? Json(nullptr) : Json(joined_texts(flags));
   });
   add("excluded", [this](const Source& s) { return has_any(s.held.summary, exclude_); });
+  add("state", [](const Source& s) { return s.state ? Json(s.index) : Json(nullptr); });
+  if (of_ == RowOf::state) add("nearest", [](const Source& s) { return s.index == nearest_of(s.held); });
 }
 
-void RecordRows::add_state() {
-  add("state", [](const Source& s) { return s.state ? Json(s.index) : Json(nullptr); });
-  for (const auto* key : {"step", "density", "delta_phi", "energy_per_particle", "pressure", "deviator", "residual",
-                          "residual_floor", "stopped", "descents"}) {
-    add(key, [pointer = std::string("/") + key](const Source& s) {
-      return s.state ? copy_of(value_at(*s.state, pointer)) : Json(nullptr);
+void RecordRows::add_fields(const Fields& fields, Quantity::Of of, std::size_t kinds) {
+  // The columns of the head have what a table needs of these.
+  constexpr std::array<std::string_view, 7> of_head{"/schema",   "/checksum", "/spec/",        "/status",
+                                                    "/failure/", "/nearest",  "/result_digest"};
+  const auto all = all_quantities();
+  for (auto& [name, pointer, field, can_be_absent] : columns_of(fields)) {
+    const bool is_quantity = std::any_of(all.begin(), all.end(), [&](const Quantity& quantity) {
+      return quantity.of == of && quantity.pointer == pointer;
     });
+    const bool is_in_head =
+        std::any_of(of_head.begin(), of_head.end(), [&](const auto start) { return pointer.starts_with(start); });
+    if (is_quantity || is_in_head || field.apart || is_of_more_kinds(pointer, kinds)) continue;
+    for (const std::string_view object : {"provenance.", "timing."}) {
+      if (name.starts_with(object)) name.erase(0, object.size());
+    }
+    const Json absent = field.presence == Presence::if_true ? Json(false) : Json(nullptr);
+    const auto value = [of, absent, pointer = pointer](const Source& s) {
+      const auto* object = of == Quantity::Of::replicate ? &s.held.record : s.state;
+      const auto* found = object ? value_at(*object, pointer) : nullptr;
+      return found || !object ? copy_of(found) : absent;
+    };
+    is_text(field) ? add_text(name, value) : add(name, value);
   }
 }
 
@@ -167,7 +218,7 @@ std::string RecordRows::lines(const RecordedReplicate& held) const {
   const bool failed = held.summary.failed;
   if (of_ == RowOf::replicate) {
     if (failed) return line({held, nullptr, 0});
-    const auto nearest = static_cast<std::size_t>(*held.document.nearest.value);
+    const auto nearest = nearest_of(held);
     return line({held, &held.record.at("states")[nearest], nearest});
   }
   std::string text;

@@ -9,6 +9,7 @@
 
 #include "tasks/io/rows.hpp"
 #include "tasks/manifest/manifest.hpp"
+#include "tasks/measure/quantity.hpp"
 #include "tasks/records/recorded.hpp"
 
 namespace isojam {
@@ -23,10 +24,11 @@ enum class RowOf : std::uint8_t {
 /// - replicate (its name), solid, particles, the swept parameters, and number (of the replicate at its sweep point)
 /// - only for replicates: status, failed_in and failure
 /// - flags, separated by "; ", and excluded (true if the replicate is excluded from means)
-/// - state (its index), phi, delta_phi and the other numbers that every state has
+/// - state (its index), only for states nearest (true for the state nearest jamming), and the fields of every state
 /// - one column per measured quantity, with its name in tables
-/// - only for replicates: evaluations and cpu_seconds
-/// - reasons for missing values, separated by "; "
+/// - the other numbers and texts of the measures; only for replicates also those of the record. Their names are the keys
+///   that lead to the value, separated by dots.
+/// - reasons for missing quantities, separated by "; "
 ///
 /// Numbers are copied from the records. A missing value is null.
 class RecordRows {
@@ -36,6 +38,8 @@ class RecordRows {
 
   /// The first line of the table.
   std::string head() const;
+  /// Names of the columns with texts. The others have numbers or truth values.
+  const Columns& texts() const { return texts_; }
   /// The lines of a replicate. If it failed, it has one line in the table of replicates, and none in the table of
   /// states.
   std::string lines(const RecordedReplicate& held) const;
@@ -50,16 +54,18 @@ class RecordRows {
   using Value = std::function<Json(const Source&)>;
 
   void add(std::string name, Value value);
+  void add_text(const std::string& name, Value value);
   void add_head(const std::vector<std::string>& parameters);
-  void add_state();
   void add_quantities(const std::vector<Measure>& measures, std::size_t kinds);
+  /// Adds the fields that are neither quantities nor columns of the head.
+  void add_fields(const Fields& fields, Quantity::Of of, std::size_t kinds);
   std::string reasons(const Source& source) const;
   std::string line(const Source& source) const;
 
   RowOf of_;
   RowFormat format_;
   std::vector<Flag> exclude_;
-  Columns columns_;
+  Columns columns_, texts_;
   std::vector<Value> values_;
   std::vector<std::size_t> quantities_;  ///< indices in all_quantities() of the quantities that are columns
 };
