@@ -12,17 +12,16 @@ import json
 import math
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import numpy
 
 from data import EMERGENCE, LARGE, NEGATIVE, SOLIDS_64
-from records import bin_of, cells_of, constraints_with, found, records_of, write
+from records import bin_of, cells_of, constraints_with, found, nearest_of, records_of, write
 
 # Column of a state: where it is in the record.
 COLUMNS = {
-    "phi": "phi", "E": "energy_per_particle", "residual": "residual", "descents": "descents",
+    "phi": "density", "E": "energy_per_particle", "residual": "residual", "descents": "descents",
     **{name: f"contacts/{name}" for name in ("Z", "Z_ff", "Z_ef", "Z_l", "C", "Z_ff_gap")},
     **{f"{name}_fixed": f"contacts/fixed_cutoffs/{name}" for name in ("Z_ff", "Z_ef", "Z_l", "C")},
     **{f"{name}_trough": f"contacts/trough/{name}" for name in ("Z_ff", "Z_ef", "C")},
@@ -189,17 +188,10 @@ def largest_cluster(positions, side, pairs):
     return max(clusters, key=lambda c: max(max(axis) - min(axis) for axis in zip(*c.values())), default={})
 
 
-def obj_of(text):
-    """Vertices and faces of a solid in an OBJ file."""
-    rows = [line.split() for line in text.splitlines()]
-    return [[float(x) for x in row[1:]] for row in rows if row and row[0] == "v"], \
-        [[int(x) - 1 for x in row[1:]] for row in rows if row and row[0] == "f"]
-
-
 def cluster_of(isojam, directory, records):
     """The face-face cluster with the largest extent among the states nearest jamming: the vertices and faces of the
     solid, and a row (x, y, z, quaternion w, x, y, z) for each particle; None without clusters."""
-    extents = [(found(r, "nearest/clusters/l_max") or 0, name) for name, r in records]
+    extents = [(found(nearest_of(r), "clusters/l_max") or 0, name) for name, r in records]
     extent, name = max(extents, default=(0, None))
     if not extent:
         return None
@@ -208,13 +200,11 @@ def cluster_of(isojam, directory, records):
                          text=True)
     pairs = [(int(row["a"]), int(row["b"]), [int(row[f"image_{axis}"]) for axis in "xyz"])
              for row in csv.DictReader(run.stdout.splitlines()) if row["class"] == "face_face"]
-    with tempfile.TemporaryDirectory() as here:
-        subprocess.run([isojam, "export", directory, name, "--format", "xyz", "-o", Path(here) / "p.xyz"], check=True,
-                       capture_output=True)
-        vertices, faces = obj_of(next(Path(here).glob("*.obj")).read_text(encoding="utf-8"))
+    run = subprocess.run([isojam, "export", directory, name, "--format", "solids"], check=True, capture_output=True)
+    solid, = json.loads(run.stdout).values()
     cluster = largest_cluster(packing["positions"], packing["side"], pairs)
-    return {"replicate": name, "delta_phi": dict(records)[name]["nearest"]["delta_phi"], "side": packing["side"],
-            "vertices": vertices, "faces": faces,
+    return {"replicate": name, "delta_phi": nearest_of(dict(records)[name])["delta_phi"], "side": packing["side"],
+            "vertices": solid["vertices"], "faces": solid["faces"],
             "particles": [[*where, *packing["orientations"][i]] for i, where in cluster.items()]}
 
 
@@ -256,11 +246,11 @@ def emergence_of(records, critical):
         for record in records:
             state = nearest_to(record, distance)
             bins = state and found(state, "contacts/angle_bins")
-            random = found(record, "nearest/contacts/angles/edge_face_random")
+            random = found(nearest_of(record), "contacts/angles/edge_face_random")
             if not bins or not random or not random["expected"]:
                 continue
             contacts = record["spec"]["particles"] / 2
-            share = random["expected"] / (contacts * record["nearest"]["contacts"]["Z"])
+            share = random["expected"] / (contacts * nearest_of(record)["contacts"]["Z"])
             first = below(bins["face_face"], bins["width"], math.radians(1))
             for i, number in enumerate((first, below(bins["face_face"], bins["width"], end) - first,
                                         below(bins["edge_face"], bins["width"], random["angle"]),

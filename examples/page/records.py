@@ -11,6 +11,11 @@ def records_of(directory):
             yield path.stem, json.load(file)
 
 
+def nearest_of(record):
+    """State nearest jamming; None if the replicate failed."""
+    return None if record.get("nearest") is None else record["states"][record["nearest"]]
+
+
 def found(value, place):
     """Value in a record at a place, which consists of keys or indices separated by "/"; None if it is missing."""
     for key in place.split("/"):

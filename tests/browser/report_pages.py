@@ -85,11 +85,11 @@ def fail(record):
     record["status"] = "failed"
     record["failure"] = {"where": "jam", "why": f"made to fail with {record['spec']['particles']} particles"}
     for key in ("flags", "phi_j", "nearest"):
-        record.pop(key)
+        record[key], record[f"{key}_reason"] = None, "the replicate failed"
 
 
 MOVED = {"Z": 0.2, "Z_ff": 0.1, "Z_ef": 0.1, "Z_l": 0.2, "C": 0.3, "energy_per_particle": 0, "omega_l": 0, "omega_h": 0,
-         "K": 0, "G": 0, "cpu_seconds": 0, "density": 0, "stress": 0}
+         "K": 0, "G": 0, "cpu_seconds": 0, "stress": 0}
 
 
 def slim(value):
@@ -126,7 +126,7 @@ def moved(value, numbers, denser):
         if not isinstance(part, str) or not part.startswith(NUMBER):
             return part
         number = float(part[len(NUMBER):])
-        if key in ("phi", "phi_j"):
+        if key in ("density", "phi_j"):
             number += shift
         elif key in MOVED:
             number = number + numbers.gauss(0, MOVED[key]) if MOVED[key] else number * math.exp(numbers.gauss(0, 0.15))
@@ -257,4 +257,4 @@ def lattice(particles, density):
         norm = math.sqrt(sum(c * c for c in q))
         orientations.append([c / norm for c in q])
     low = {"positions_low": [[0.0] * 3] * particles, "orientations_low": [[0.0] * 4] * particles}
-    return copy.deepcopy({"phi": density, "side": side, "positions": positions, "orientations": orientations, **low})
+    return copy.deepcopy({"density": density, "side": side, "positions": positions, "orientations": orientations, **low})

@@ -173,7 +173,7 @@ class Gathered(unittest.TestCase):
         centres = list(zip(*cluster["particles"]))[:3]
         self.assertEqual(size, 64)
         self.assertAlmostEqual(max(max(x) - min(x) for x in centres) / cluster["side"],
-                               max(r["nearest"]["clusters"]["l_max"] for r in records), places=3)
+                               max(r["states"][r["nearest"]]["clusters"]["l_max"] for r in records), places=3)
         entry = made.trough("tetrahedron", 64)
         contacts = sum(state["contacts"]["Z"] * 64 / 2 for state in (r["states"][-1] for r in records))
         self.assertAlmostEqual(sum(entry["theta_ff"][1]), contacts)

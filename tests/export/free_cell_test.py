@@ -38,7 +38,7 @@ class FreeCell(unittest.TestCase):
             self.assertNotIn("side", packing)
             cell = numpy.array(packing["cell"])
             n = len(packing["positions"])
-            self.assertAlmostEqual(numpy.linalg.det(cell) * packing["phi"] / n, 1, places=13)
+            self.assertAlmostEqual(numpy.linalg.det(cell) * packing["density"] / n, 1, places=13)
             self.assertGreater(numpy.abs(cell - numpy.diag(numpy.diag(cell))).max(), 1e-3)
             quaternions = numpy.array(packing["orientations"])
             quaternions /= numpy.linalg.norm(quaternions, axis=1)[:, None]

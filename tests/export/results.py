@@ -16,7 +16,7 @@ class State:
     def __init__(self, packing, delta_phi):
         self.solid = packing["solid"]
         self.side = packing["side"]
-        self.phi = packing["phi"]
+        self.density = packing["density"]
         self.delta_phi = delta_phi
         self.positions = numpy.array(packing["positions"])
         quaternions = numpy.array(packing["orientations"])
@@ -32,10 +32,14 @@ def record(results, name):
     return json.loads(pathlib.Path(results, "records", name + ".json").read_text())
 
 
+def nearest_of(document):
+    return document["states"][document["nearest"]]
+
+
 def nearest(results, name):
     """A list with the nearest state."""
     packing = json.loads(pathlib.Path(results, "packings", name + ".json").read_text())
-    return [State(packing, record(results, name)["nearest"]["delta_phi"])]
+    return [State(packing, nearest_of(record(results, name))["delta_phi"])]
 
 
 def path(results, name):
@@ -47,7 +51,7 @@ def path(results, name):
 def measured(results, name, whole_path):
     """The values of these states in the record."""
     document = record(results, name)
-    return document["states"] if whole_path else [document["nearest"]]
+    return document["states"] if whole_path else [nearest_of(document)]
 
 
 def rotation(quaternions):

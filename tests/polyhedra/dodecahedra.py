@@ -37,7 +37,7 @@ def main():
             sys.exit(messages)
         values = {}
         for record in study.records(directory).values():
-            contacts = record["nearest"]["contacts"]
+            contacts = record["states"][record["nearest"]]["contacts"]
             values.setdefault(record["spec"]["solid"], []).append(
                 [record["phi_j"]["phi_j"], contacts["Z"], contacts["C"]])
     wrong = 0

@@ -39,7 +39,7 @@ def line(name, record, exported):
     """The figures of a replicate, and what is wrong with it."""
     if record["status"] != "done":
         return "", f"failed in {record['failure']['where']}: {record['failure']['why']}"
-    state = record["nearest"]
+    state = record["states"][record["nearest"]]
     contacts = state["contacts"]
     text = (f"{name} {record['spec']['particles']:4} {number((record['phi_j'] or {}).get('phi_j'), '.4f')} "
             f"{contacts['Z']:7.4f} {number(contacts['C'], '.4f'):>8} {state['residual']:.2e} {exported:.2e} "

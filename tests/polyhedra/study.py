@@ -106,7 +106,7 @@ def unbalanced(record, exported, factor=3):
     """Why the exported forces of a replicate disagree with its record; empty if they agree.
 
     Residuals below the record's floor are rounding errors."""
-    state = record["nearest"]
+    state = record["states"][record["nearest"]]
     floor = state["residual_floor"]
     least, most = sorted((max(state["residual"], floor), max(exported, floor)))
     if most <= factor * least:
