@@ -48,8 +48,8 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/engine)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS python3:any)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS python3-numpy)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libmetis-dev, libtbb-dev, python3-matplotlib, python3-pandas, python3-tqdm")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS python3-pandas)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libmetis-dev, libtbb-dev, python3-matplotlib, python3-tqdm")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "jammed packings of soft frictionless convex solids
 isojam makes jammed packings of soft, frictionless convex solids, Platonic
 ones above all, in a periodic cell. It measures the jamming density, the

@@ -67,7 +67,7 @@ def draw_energies(axes, study):
         names = numpy.unique(states["replicate"])
         for name in names:
             of = states["replicate"] == name
-            axes.plot(states["phi"][of], states["energy_per_particle"][of] ** (1 / 6), ".-", color=colour, markersize=4,
+            axes.plot(states["density"][of], states["energy_per_particle"][of] ** (1 / 6), ".-", color=colour, markersize=4,
                       linewidth=0.8, label=solid if name == names[0] else None)
         kept = study.replicates.kept[study.replicates.kept["solid"] == solid]
         axes.plot(kept["phi_j"], 0 * kept["phi_j"], "|", color=colour, markersize=12)
@@ -78,7 +78,7 @@ def draw_energies(axes, study):
 # %% One figure of both
 if __name__ == "__main__":
     study = isojam.load(sys.argv[1])
-    name = study.replicates[study.replicates["solid"] == sys.argv[2]]["replicate"][0]
+    name = next(iter(study.replicates[study.replicates["solid"] == sys.argv[2]]["replicate"]))
     contacts = study.contacts(name)
     flat = contacts[contacts["class"] == "face_face"]
     figure = pyplot.figure(figsize=(11, 5))

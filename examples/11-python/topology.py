@@ -3,15 +3,15 @@
 Draws results of 04-contact-topology: the distribution of contact forces, the joint distribution of alignment angles,
 and the constraint number C against Δφ. Reads the results directory DIR with the module isojam, and writes forces.png,
 angles.png and constraints.png. If the exported tables are given, it also draws the same figures from the tables,
-which it reads without the module: forces-csv.png, angles-csv.png and constraints-csv.png. Needs Debian's
+which it reads with pandas only: forces-csv.png, angles-csv.png and constraints-csv.png. Needs Debian's
 python3-matplotlib. The module isojam is in build/python."""
 
 # %% Forces: distribution of f divided by the mean f of its packing
-import csv
 import sys
 
 import matplotlib
 import numpy
+import pandas
 
 import isojam
 
@@ -69,40 +69,22 @@ def draw_constraints(file, solid, delta_phi, constraints):
 
 
 # %% From the results directory
-study = isojam.load(sys.argv[1])
-states = study.states[~study.states["excluded"]]
-contacts = study.contacts()
-contacts = contacts[numpy.isin(contacts["replicate"], states["replicate"])]
+def draw_all(ending, states, contacts, force):
+    states = states[~states["excluded"]]
+    kept = contacts["replicate"].isin(states["replicate"])
+    contacts, force = contacts[kept], force[kept]
+    solid = contacts["solid_a"].to_numpy(str)
+    draw_forces(f"forces{ending}.png", solid, contacts["replicate"].to_numpy(str), force)
+    draw_angles(f"angles{ending}.png", solid, contacts["class"], contacts["theta_ef"], contacts["theta_ff"])
+    draw_constraints(f"constraints{ending}.png", states["solid"].to_numpy(str), states["delta_phi"].to_numpy(),
+                     states["C"].to_numpy())
 
-draw_forces("forces.png", contacts["solid_a"], contacts["replicate"], contacts["force"])
-draw_angles("angles.png", contacts["solid_a"], contacts["class"], contacts["theta_ef"], contacts["theta_ff"])
-draw_constraints("constraints.png", states["solid"], states["delta_phi"], states["C"])
+
+study = isojam.load(sys.argv[1])
+contacts = study.contacts()
+draw_all("", study.states, contacts, contacts.vectors("force"))
 
 # %% From the exported tables
-if len(sys.argv) < 4:
-    sys.exit()
-
-
-def read(file):
-    """The columns of a table as {name: array of texts}."""
-    with open(file, newline="", encoding="utf-8") as lines:
-        names, *rows = csv.reader(lines)
-    return dict(zip(names, numpy.array(rows).T))
-
-
-def numbers(*columns):
-    """Arrays of numbers from columns of text; an empty text becomes NaN."""
-    values = [[float(text or "nan") for text in column] for column in columns]
-    return numpy.array(values).T if len(columns) > 1 else numpy.array(values[0])
-
-
-states = read(sys.argv[3])
-states = {name: column[states["excluded"] == "false"] for name, column in states.items()}
-contacts = read(sys.argv[2])
-contacts = {name: column[numpy.isin(contacts["replicate"], states["replicate"])] for name, column in contacts.items()}
-force = numbers(contacts["force_x"], contacts["force_y"], contacts["force_z"])
-
-draw_forces("forces-csv.png", contacts["solid_a"], contacts["replicate"], force)
-draw_angles("angles-csv.png", contacts["solid_a"], contacts["class"], numbers(contacts["theta_ef"]),
-            numbers(contacts["theta_ff"]))
-draw_constraints("constraints-csv.png", states["solid"], numbers(states["delta_phi"]), numbers(states["C"]))
+if len(sys.argv) == 4:
+    contacts, states = (pandas.read_csv(file, float_precision="round_trip") for file in sys.argv[2:])
+    draw_all("-csv", states, contacts, contacts[["force_x", "force_y", "force_z"]].to_numpy())

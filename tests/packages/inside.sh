@@ -46,7 +46,7 @@ for module in /usr/lib/python3/dist-packages "$moved/lib/python3/dist-packages";
 import isojam, sys
 assert isojam.__file__.startswith(sys.argv[1]), isojam.__file__
 study = isojam.load(sys.argv[2])
-print(study.record(study.names[0])['result_digest'], len(study.contacts()['force']))" "$module" "$results"
+print(study.record(study.names[0])['result_digest'], len(study.contacts()))" "$module" "$results"
   done
 done >digests
 [[ $(sort -u digests | wc -l) = 1 ]] || fail "results differ: $(cat digests)"

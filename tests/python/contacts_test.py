@@ -1,11 +1,12 @@
 """Tests Study.contacts() for nearest states and for paths, in cubes, variable cells and mixtures."""
 
 import functools
+import os
 import subprocess
-import tempfile
 import warnings
 
 import numpy
+import pandas
 
 import support
 from support import CUBES, FREE, MIXED, isojam
@@ -27,12 +28,12 @@ class Contacts(support.Case):
             study = support.study(directory)
             everything = contacts(directory, path=whole)
             self.assertEqual(set(everything["replicate"]), set(support.done(directory)))
-            for name, of in everything.by("replicate"):
+            for name, of in everything.groupby("replicate"):
                 rows = study.states[study.states["replicate"] == name]
                 rows = rows if whole else rows[rows["nearest"]]
                 packings = study.path(name) if whole else [study.packing(name)]
                 self.assertEqual(list(dict.fromkeys(of["state"])), list(rows["state"]))
-                for packing, row in zip(packings, rows):
+                for packing, (_, row) in zip(packings, rows.iterrows()):
                     yield packing, row, of[of["state"] == row["state"]]
 
     def test_numbers(self):
@@ -55,11 +56,11 @@ class Contacts(support.Case):
         for packing, row, of in self.states():
             force = numpy.zeros((len(packing), 3))
             torque = numpy.zeros((len(packing), 3))
-            numpy.add.at(force, of["a"], of["force"])
-            numpy.add.at(force, of["b"], -of["force"])
-            numpy.add.at(torque, of["a"], of["torque_a"])
-            numpy.add.at(torque, of["b"], of["torque_b"])
-            mean = numpy.linalg.norm(of["force"], axis=1).mean()
+            forces = of.vectors("force")
+            for side, sign in (("a", 1), ("b", -1)):
+                numpy.add.at(force, of[side], sign * forces)
+                numpy.add.at(torque, of[side], of.vectors(f"torque_{side}"))
+            mean = numpy.linalg.norm(forces, axis=1).mean()
             reach = max(numpy.linalg.norm(solid.vertices, axis=1).max() for solid in packing.solids) * packing.size.max()
             left = numpy.linalg.norm(force, axis=1).max() / mean, numpy.linalg.norm(torque, axis=1).max() / mean / reach
             # Rounding errors of sums of so many terms are far smaller.
@@ -69,15 +70,15 @@ class Contacts(support.Case):
 
     def test_geometry(self):
         for packing, _, of in self.states():
-            size = numpy.linalg.norm(packing.cell)
-            force = numpy.linalg.norm(of["force"], axis=1)
-            arm_a = of["attack"] - packing.positions[of["a"]]
-            arm_b = of["attack"] - packing.positions[of["b"]] - of["image"] @ packing.cell
+            size, forces, normals = numpy.linalg.norm(packing.cell), of.vectors("force"), of.vectors("normal")
+            force = numpy.linalg.norm(forces, axis=1)
+            arm_a = of.vectors("attack") - packing.positions[of["a"]]
+            arm_b = of.vectors("attack") - packing.positions[of["b"]] - of.vectors("image") @ packing.cell
             for arm, torque, sign in ((arm_a, "torque_a", 1), (arm_b, "torque_b", -1)):
-                couple = (of[torque] - sign * numpy.cross(arm, of["force"])) / force[:, None]
-                across = numpy.cross(couple, of["normal"])
-                self.near(across, numpy.zeros_like(arm), 1e-12 * size, torque)
-            self.near(of["force"], -.5 * (of["volume"] * of["area"])[:, None] * of["normal"], 1e-14 * force.max(), "force")
+                couple = (of.vectors(torque) - sign * numpy.cross(arm, forces)) / force[:, None]
+                self.near(numpy.cross(couple, normals), numpy.zeros_like(arm), 1e-12 * size, torque)
+            expected = -.5 * (of["volume"] * of["area"]).to_numpy()[:, None] * normals
+            self.near(forces, expected, 1e-14 * force.max(), "force")
             for side in "ab":
                 names = numpy.array(packing.solid_names)[packing.kind[of[side]]]
                 self.assertEqual(list(of["solid_" + side]), list(names))
@@ -87,47 +88,31 @@ class Contacts(support.Case):
             if not row["nearest"]:
                 continue
             directory = next(d for d in support.ALL if packing.name in support.study(d).names)
-            angles = support.document(directory, "records", packing.name)["nearest"]["contacts"]["angles"]
+            record = support.document(directory, "records", packing.name)
+            angles = record["states"][record["nearest"]]["contacts"]["angles"]
             for column, key in (("theta_ff", "face_face"), ("theta_ef", "edge_face")):
-                values = numpy.sort(of[column][~numpy.isnan(of[column])])
+                values = numpy.sort(of[column].dropna())
                 self.near(values, angles[key], 1e-12, f"{packing.name} {key}")
 
 
 class Ways(support.Case):
-    def same(self, rows, others):
-        self.assertEqual(rows.columns, others.columns)
-        for name in rows.columns:
-            numpy.testing.assert_array_equal(rows[name], others[name], name)
-
     def test_one_and_all(self):
         everything = contacts(MIXED)
         for name in support.done(MIXED):
-            self.same(contacts(MIXED, name), everything[everything["replicate"] == name])
-
-    def test_an_exported_file(self):
-        with tempfile.TemporaryDirectory() as folder:
-            name, file = support.done(CUBES)[0], folder + "/contacts.csv"
-            subprocess.run([program.find(), "export", CUBES, name, "--format", "contacts", "-o", file], check=True,
-                           stdout=subprocess.DEVNULL)
-            self.same(isojam.read_table(file), contacts(CUBES, name))
+            own = everything[everything["replicate"] == name].reset_index(drop=True)
+            pandas.testing.assert_frame_equal(contacts(MIXED, name), own)
 
     def test_what_failed(self):
-        with self.assertWarnsRegex(UserWarning, "max_density"):
+        with self.assertWarnsRegex(UserWarning, "max_density") as warned:
             support.study(MIXED).contacts()
+        self.assertEqual(os.path.basename(warned.filename), "contacts_test.py")
         failed = next(name for name in support.study(MIXED).names if name not in support.done(MIXED))
-        self.refused(lambda: support.study(MIXED).contacts(failed), failed, "/status")
-
-    def test_what_the_program_refuses(self):
-        copy = self.copy(CUBES)
-        name = support.done(CUBES)[0]
-        file = copy / "packings" / (name + ".json")
-        text = bytearray(file.read_bytes())
-        text[len(text) // 2] ^= 1
-        file.write_bytes(text)
-        with self.assertRaises(isojam.ProgramError) as caught:
-            isojam.load(copy).contacts(name)
-        self.assertIn("the file is damaged", str(caught.exception))
-        self.assertIn(str(copy), caught.exception.command)
+        with self.assertRaisesRegex(isojam.ProgramError, "failed"):
+            support.study(MIXED).contacts(failed)
+        with self.assertRaisesRegex(isojam.ProgramError, "no such format") as caught:
+            isojam.load(CUBES, program=self.stub("echo no such format >&2; exit 2\n")).contacts()
+        self.assertEqual(caught.exception.message, "no such format")
+        self.assertIn(str(CUBES), caught.exception.command)
 
     def test_measures_added_later(self):
         copy = self.copy(CUBES)
@@ -140,7 +125,7 @@ class Ways(support.Case):
             for name in study.names:
                 numpy.testing.assert_array_equal(study.packing(name).positions, before.packing(name).positions)
                 self.assertEqual(len(study.path(name)), len(before.path(name)))
-            self.same(study.contacts(), contacts(CUBES))
+            pandas.testing.assert_frame_equal(study.contacts(), contacts(CUBES))
 
 
 if __name__ == "__main__":

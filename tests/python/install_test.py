@@ -56,6 +56,10 @@ class Install(unittest.TestCase):
         self.assertIn("ISOJAM", python(READ, self.module, RESULTS, "").stderr)
         self.assertIn("/no/such", python(READ, self.module, RESULTS, "", ISOJAM="/no/such").stderr)
 
+    def test_without_pandas(self):
+        ended = python("sys.modules['pandas'] = None\nimport isojam", self.module)
+        self.assertIn("pandas", ended.stderr)
+
     def test_the_sources_alone(self):
         (self.module / "isojam/facts.json").unlink()
         self.assertIn("python/ in the build directory", python("import isojam", self.module).stderr)

@@ -1,161 +1,175 @@
-"""Tests the rows of replicates and states."""
+"""Tests the rows of replicates and states, and the means."""
 
-import copy
+import csv
 import json
 import pathlib
+import re
 import subprocess
-import sys
 import tempfile
 
+import pandas
+
 import support
-from support import ALL, CUBES, MIXED, isojam, numpy
+from support import ALL, CUBES, FREE, MIXED, isojam, numpy
+
+from isojam import program
 
 
-def rows_of_tables(directory):
-    return json.loads(pathlib.Path(directory, "tables.json").read_text())["rows"]
-
-
-def rows_like(rows, line):
-    """The rows of the sweep point of a line in a table."""
-    mask = (rows["solid"] == line["solid"]) & (rows["particles"] == line["particles"])
-    for name, value in line["parameters"].items():
-        mask &= rows["minimiser.residual" if name == "residual" else name] == value
-    return rows[mask]
-
-
-class Replicates(support.Case):
-    def test_means_are_those_of_the_tables(self):
+class Rows(support.Case):
+    def test_values_and_types_are_those_of_the_program(self):
+        """The JSON lines of the program have types: numbers, texts, truth values and nulls."""
         compared = 0
         for directory in ALL:
-            replicates = support.study(directory).replicates
-            for line in rows_of_tables(directory):
-                of = rows_like(replicates, line)
-                counts = [len(of), (of["status"] == "failed").sum(), sum(map(bool, of["flags"])), of["excluded"].sum()]
-                self.assertEqual(counts, [line[key] for key in ("replicates", "failed", "flagged", "excluded")])
-                for place, rows in ((line, of[~of["excluded"]]), (line.get("all"), of)):
-                    compared += self.compare(rows, place) if place is not None else 0
-        print(f"{compared} means compared")
-        self.assertGreater(compared, 100)
+            for what in ("replicates", "states"):
+                file = pathlib.Path(self.folder(), "rows.jsonl")
+                subprocess.run([program.find(), "export", directory, "all", "--format", what, "-o", file], check=True,
+                               stdout=subprocess.DEVNULL)
+                lines = [json.loads(line) for line in file.read_text().splitlines()]
+                rows = getattr(support.study(directory), what)
+                self.assertEqual((len(rows), list(rows.columns)), (len(lines), list(lines[0])))
+                for name in rows.columns:
+                    texts = any(isinstance(line[name], str) for line in lines)
+                    for value, line in zip(rows[name], lines):
+                        expected = line[name]
+                        if expected is None:
+                            self.assertTrue(value == "" if name in isojam.facts.texts else numpy.isnan(value), name)
+                        else:
+                            self.assertEqual(value, expected, name)
+                            self.assertEqual(isinstance(value, bool | numpy.bool_), isinstance(expected, bool), name)
+                            compared += 1
+                    self.assertLessEqual(texts, name in isojam.facts.texts, name)
+        print(f"{compared} values compared")
+        self.assertGreater(compared, 2000)
 
-    def compare(self, rows, line):
-        """Compares a line of a table with rows. Returns the number of compared quantities."""
-        compared = 0
-        for quantity in isojam.quantities:
-            expected = line.get(quantity["name"])
-            if expected is None or (expected["n"] == 0 and quantity["name"] not in rows):
-                continue
-            values = rows[quantity["name"]].astype(float)
-            values = values[~numpy.isnan(values)]
-            self.assertEqual(len(values), expected["n"], quantity)
-            if len(values):
-                self.near(values.mean(), expected["mean"], 1e-14 * numpy.abs(values).max(), quantity["name"])
-                compared += 1
-        return compared
-
-    def test_what_failed(self):
-        replicates = support.study(MIXED).replicates
-        failed = replicates[replicates["status"] == "failed"]
-        self.assertEqual(len(failed), 6)
-        for row in failed:
-            record = support.document(MIXED, "records", row["replicate"])
-            self.assertEqual((row["failed_in"], row["failure"]), (record["failure"]["where"], record["failure"]["why"]))
-            self.assertTrue(numpy.isnan([row["phi_j"], row["Z"], row["rearrangements"]]).all())
-            for name in ("phi_j", "rearrangements", "nearest", "flags"):
-                self.assertEqual(row["reasons"][name], "the replicate failed")
-        self.assertEqual(set(replicates[replicates["status"] == "done"]["failed_in"]), {""})
-
-    def test_flags(self):
-        flags = [row["flags"] for row in support.study(MIXED).replicates if row["excluded"]]
-        self.assertEqual(set(flags), {("outside_fit_window",)})
-        self.assertEqual(support.study(MIXED).excluding, ("outside_fit_window",))
-
-    def test_swept_parameters(self):
-        for rows in (support.study(MIXED).replicates, support.study(MIXED).states):
-            self.assertEqual(set(rows["minimiser.residual"]), {1e-3})
-            self.assertLess(numpy.nanmax(rows["residual"]), 1e-3)
-        self.assertEqual([value for value, _ in support.study(MIXED).replicates.by("max_density")], [.4, .85])
-
-
-class States(support.Case):
     def test_every_quantity_is_the_records(self):
         compared = nulls = 0
         for directory in ALL:
             study = support.study(directory)
             records = [support.document(directory, "records", name) for name in study.names]
-            states = [(record, state) for record in records for state in record["states"] if record["nearest"]]
-            self.assertEqual(len(study.states), len(states))
-            for row, (record, state) in zip(study.states, states):
-                self.assertEqual(row["nearest"], record["nearest"]["phi"] == state["phi"])
-                for quantity in (q for q in isojam.quantities if q["of"] == "state"):
-                    parent, _, key = quantity["pointer"].rpartition("/")
-                    value, name = support.at(state, quantity["pointer"]), quantity["name"]
-                    if value is not None:
-                        self.assertEqual(row[name], value, name)
-                        compared += 1
-                    elif key in (support.at(state, parent) or {}):
-                        self.assertTrue(numpy.isnan(row[name]), name)
-                        self.assertEqual(row["reasons"][name], support.at(state, parent)[key + "_reason"])
-                        nulls += 1
-        print(f"{compared} values compared, {nulls} nulls")
+            done = [record for record in records if record["status"] == "done"]
+            pairs = [(record, state) for record in done for state in record["states"]]
+            nearest = [(record, record["states"][record["nearest"]]) for record in done]
+            of_done = study.replicates[study.replicates["status"] == "done"]
+            for rows, expected in ((study.states, pairs), (of_done, nearest)):
+                self.assertEqual(len(rows), len(expected))
+                for (_, row), (record, state) in zip(rows.iterrows(), expected):
+                    self.assertEqual(row["state"], record["states"].index(state))
+                    self.assertEqual(row.get("nearest", True), state is record["states"][record["nearest"]])
+                    self.assertEqual([row["density"], row["pressure"]], [state["density"], state["pressure"]])
+                    for quantity in isojam.quantities:
+                        if quantity["name"] not in row or quantity["name"] in state:
+                            continue  # a number that every state has
+                        document = state if quantity["of"] == "state" else record
+                        value = support.at(document, quantity["pointer"])
+                        if value is not None:
+                            self.assertEqual(row[quantity["name"]], value)
+                            compared += 1
+                        else:
+                            self.assertTrue(numpy.isnan(row[quantity["name"]]), quantity["name"])
+                            reason = support.at(document, quantity["pointer"] + "_reason")
+                            self.assertIn(f"{quantity['name']}: {reason}" if reason else "", row["reasons"])
+                            nulls += reason is not None
+        print(f"{compared} values compared, {nulls} reasons")
         self.assertGreater(min(compared, 20 * nulls), 300)
 
-    def test_what_failed_later_has_no_states(self):
-        """If a replicate failed in a measure, its record has states."""
-        where, name = self.copy(CUBES), support.done(CUBES)[0]
-        record = support.document(where, "records", name)
-        self.assertGreater(len(record["states"]), 1)
-        record.update(status="failed", failure={"where": "modes", "why": "no reason"}, nearest=None, flags=None, phi_j=None)
-        (where / f"records/{name}.json").write_text(json.dumps(record))
-        study = isojam.load(where, check=False)
-        self.assertEqual(set(study.states["replicate"]), set(study.names) - {name})
-        self.assertEqual(study.replicates[0]["failed_in"], "modes")
+    def test_other_numbers_of_records_are_columns(self):
+        row = support.study(CUBES).replicates.iloc[0]
+        record = support.document(CUBES, "records", row["replicate"])
+        for name, value in (("phi_j.single_state", record["phi_j"]["single_state"]), ("work.hessians", record["work"]["hessians"]),
+                            ("evaluations", record["evaluations"]), ("wall_seconds", record["timing"]["wall_seconds"]),
+                            ("manifest_digest", record["provenance"]["manifest_digest"])):
+            self.assertEqual(row[name], value, name)
 
-    def test_names_that_clash(self):
-        """The Q6 of `contacts` is not the quantity Q6, whose pointer is /order/Q6."""
-        states = support.study(CUBES).states
-        records = [support.document(CUBES, "records", name) for name in support.done(CUBES)]
-        expected = [state["contacts"]["Q6"] for record in records for state in record["states"]]
-        self.assertEqual(list(states["contacts.Q6"]), expected)
-        self.assertNotIn("Q6", states)
+    def test_what_failed(self):
+        replicates = support.study(MIXED).replicates
+        failed = replicates[replicates["status"] == "failed"]
+        self.assertEqual(len(failed), 6)
+        for _, row in failed.iterrows():
+            record = support.document(MIXED, "records", row["replicate"])
+            self.assertEqual((row["failed_in"], row["failure"]), (record["failure"]["where"], record["failure"]["why"]))
+            self.assertTrue(numpy.isnan([row["phi_j"], row["Z"], row["state"]]).all())
+        self.assertEqual(set(replicates[replicates["status"] == "done"]["failed_in"]), {""})
+        self.assertFalse(set(failed["replicate"]).intersection(support.study(MIXED).states["replicate"]))
+
+    def test_a_study_of_failures_has_empty_tables(self):
+        where = self.copy(MIXED)
+        for name in support.done(MIXED):
+            (where / f"records/{name}.json").unlink()
+        study = isojam.load(where)
+        self.assertEqual((len(study.states["Z"]), len(study.replicates), study.replicates["Z"].count()), (0, 6, 0))
+
+    def test_flags_and_swept_parameters(self):
+        study = support.study(MIXED)
+        excluded = study.replicates[study.replicates["excluded"]]
+        self.assertTrue(len(excluded) and excluded["flags"].str.contains("outside_fit_window").all())
+        for rows in (study.replicates, study.states):
+            self.assertEqual(set(rows["minimiser.residual"]), {1e-3})
+            self.assertLess(rows["residual"].max(), 1e-3)
+
+    def test_kept(self):
+        excluded = 0
+        for directory in ALL:
+            study = support.study(directory)
+            records = [support.document(directory, "records", name) for name in support.done(directory)]
+            kept = {name for name, record in zip(support.done(directory), records)
+                    if not {*record["flags"]}.intersection(study.manifest["exclude"])}
+            for rows in (study.replicates, study.states):
+                self.assertIsInstance(rows.kept, isojam.Rows)
+                self.assertEqual(set(rows.kept["replicate"]), kept)
+            excluded += len(study.replicates) - len(study.replicates.kept)
+        self.assertGreater(excluded, 6)
 
 
-class Columns(support.Case):
-    def test_pandas_is_not_needed(self):
-        read = ("import isojam; study = isojam.load(sys.argv[1]); study.states; study._repr_html_(); print(len(study.replicates))\n"
-                "try: study.replicates.frame()\nexcept ImportError: print('no frame')")
-        for before in ("import sys; sys.modules['pandas'] = None", "import sys"):
-            code = f"{before}; sys.path.insert(0, sys.argv[2]); {read}"
-            said = subprocess.run([sys.executable, "-B", "-E", "-s", "-c", code, MIXED, support.MODULE],
-                                  capture_output=True, text=True, check=True).stdout.split("\n", 1)
-            self.assertEqual(said[0], "12")
-            self.assertEqual("no frame" in said[1], "pandas" in before)
+class Means(support.Case):
+    def test_means_of_rows_are_those_of_the_table(self):
+        compared = 0
+        for directory in ALL:
+            study = support.study(directory)
+            table = study.table()
+            point = list(table.columns[:table.columns.get_loc("replicates")])
+            for over, rows in (("kept", study.replicates.kept), ("all", study.replicates)):
+                lines = table[table["over"] == over].set_index(point)
+                for name in [name for name in rows if f"{name}_mean" in lines]:
+                    means = rows.groupby(point)[name].mean().dropna()
+                    for of, mean in means.items():
+                        if of in lines.index:
+                            self.near(mean, lines.loc[of, f"{name}_mean"], 1e-14 * rows[name].abs().max(), name)
+                            compared += 1
+        print(f"{compared} means compared")
+        self.assertGreater(compared, 100)
 
-    def test_frames(self):
-        for rows in (support.study(MIXED).replicates, support.study(MIXED).states):
-            frame = rows.frame()
-            self.assertEqual(type(frame).__name__, "DataFrame")
-            self.assertEqual(list(frame.columns), rows.columns)
-            for name in rows.columns:
-                values, others = frame[name].to_numpy(), rows[name]
-                same = [a == b or (a != a and b != b) for a, b in zip(values, others)]
-                self.assertTrue(all(same), name)
-        vectors = isojam.Rows({"n": [1, 2], "force": [[1., 2, 3], [4, 5, 6]]}).frame()
-        self.assertEqual(list(vectors.columns), ["n", "force_x", "force_y", "force_z"])
-        self.assertEqual(list(vectors["force_y"]), [2, 5])
+    def test_the_table_is_that_of_the_program(self):
+        for directory in ALL:
+            for series in (False, True):
+                words = ["aggregate", directory, "--format", "csv", *(["--series"] if series else [])]
+                text = subprocess.run([program.find(), *words], capture_output=True, text=True, check=True).stdout
+                frame = support.study(directory).table(series)
+                self.assertIs(type(frame), pandas.DataFrame)
+                for (_, own), line in zip(frame.iterrows(), csv.DictReader(text.splitlines()), strict=True):
+                    for name, value in line.items():
+                        self.assertTrue(own[name] == type(own[name])(value) if value else numpy.isnan(own[name]), name)
 
-    def test_choosing(self):
-        rows = isojam.Rows({"solid": numpy.array(["b", "a", "b"]), "x": [1., numpy.nan, 3],
-                            "flags": isojam.rows.column_of([(), ("f",), ()])})
-        self.assertEqual([(value, list(of["x"])) for value, of in rows[[0, 2]].by("solid")], [("b", [1, 3])])
-        self.assertEqual([value for value, _ in rows.by("x")], [1, 3])
-        self.assertEqual([len(of) for _, of in rows.by("flags")], [2, 1])
-        self.assertEqual((len(rows[rows["x"] > 5]), len(rows[[]]), rows[-1]["x"], len(rows[1:])), (0, 0, 3, 2))
-        with self.assertRaisesRegex(KeyError, 'did you mean "solid"'):
-            rows["solids"]
-        self.assertIs(rows.x, rows["x"])
-        self.assertEqual(copy.copy(rows).columns, rows.columns)
-        with self.assertRaisesRegex(AttributeError, 'unknown column "y"; expected one of solid'):
-            rows.y
+    def test_the_program_is_called_once_for_each_table(self):
+        calls = pathlib.Path(self.folder(), "calls")
+        study = isojam.load(MIXED, program=self.stub(f'echo x >>{calls}\nexec {program.find()} "$@"\n'))
+        study.table()["over"] = "changed"
+        for series in (False, True, False, True):
+            self.assertNotIn("changed", list(study.table(series)["over"]))
+        self.assertEqual(calls.read_text(), "x\nx\n")
+
+    def test_notebook(self):
+        table = support.study(FREE).table()
+        head, *lines = [re.findall("<t[hd]>(.*?)</t[hd]>", line)
+                        for line in re.findall("<tr.*?>(.*?)</tr>", support.study(FREE)._repr_html_(), re.DOTALL)]
+        self.assertEqual([line[head.index("solid")] for line in lines], list(table[table["over"] == "kept"]["solid"]))
+        for name in ("phi_j_mean", "phi_j_low", "Z_n"):
+            numbers = [float(line[head.index(name)] or "nan") for line in lines]
+            numpy.testing.assert_allclose(numbers, table[table["over"] == "kept"][name], 1e-5)
+        name = "<script>"
+        where = pathlib.Path(self.folder(), name)
+        where.symlink_to(FREE.resolve())
+        for other in (None, self.stub("echo 'no <script>' >&2; exit 1\n")):
+            self.assertNotIn("<script>", isojam.load(where, program=other)._repr_html_())
 
 
 class Directories(support.Case):
@@ -176,7 +190,7 @@ class Directories(support.Case):
         where = self.copy(MIXED)
         (where / "manifest.json").unlink()
         study = isojam.load(where)
-        self.assertEqual((study.manifest, set(study.excluding)), (None, {"crystalline", "not_balanced"}))
+        self.assertIsNone(study.manifest)
         self.assertFalse(study.replicates["excluded"].any())
 
 

@@ -42,7 +42,10 @@ def done(directory):
 def at(value, pointer):
     """Value at a JSON pointer; None if it is missing."""
     for key in pointer.split("/")[1:]:
-        value = value.get(key) if isinstance(value, dict) else None
+        if isinstance(value, list):
+            value = value[int(key)] if int(key) < len(value) else None
+        else:
+            value = value.get(key) if isinstance(value, dict) else None
     return value
 
 

@@ -25,6 +25,7 @@ class Isojam(CMakePackage):
     depends_on("nlohmann-json@3.11:")
     depends_on("python@3.9:", type=("build", "run"))
     depends_on("py-numpy", type="run")
+    depends_on("py-pandas", type="run")
     depends_on("spectra@1.0:")
 
     extends("python")

@@ -1,9 +1,10 @@
 #include <string>
 
+#include "tasks/extras/export/contact_network.hpp"
+#include "tasks/extras/export/record_rows.hpp"
 #include "tasks/io/atomic_file.hpp"
 #include "tasks/io/json.hpp"
 #include "tasks/io/version.hpp"
-#include "tasks/measure/flag.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/records/record.hpp"
 
@@ -13,6 +14,16 @@
 
 namespace {
 
+/// Columns with texts in the tables of `isojam export` and `isojam aggregate`.
+isojam::Columns text_columns() {
+  isojam::Manifest manifest;
+  manifest.measures.assign(isojam::all_measures.begin(), isojam::all_measures.end());
+  auto texts = isojam::RecordRows(isojam::RowOf::replicate, isojam::RowFormat::csv, manifest, {}).texts();
+  for (const auto& name : isojam::contact_texts()) texts.push_back(name);
+  texts.emplace_back("over");
+  return texts;
+}
+
 isojam::Json facts(const std::string& program) {
   isojam::Json json;
   json["program"] = program;
@@ -20,8 +31,7 @@ isojam::Json facts(const std::string& program) {
   json["schemas"]["record"] = isojam::record_schema;
   json["schemas"]["packing"] = isojam::packing_schema;
   json["schemas"]["path"] = isojam::path_schema;
-  json["exclude"] = isojam::Json::array();
-  for (const auto flag : isojam::usually_excluded()) json["exclude"].push_back(to_string(flag));
+  json["texts"] = text_columns();
   for (const auto& quantity : isojam::all_quantities()) {
     isojam::Json entry;
     entry["name"] = quantity.name;

@@ -1,4 +1,4 @@
-"""Runs studies of isojam and reads their results as numpy arrays.
+"""Runs studies of isojam and reads their results as pandas DataFrames and numpy arrays.
 
     import isojam
     study = isojam.run({"name": "two-solids", ...}, "results/two-solids")
@@ -6,8 +6,8 @@
     study.replicates["phi_j"]                    # one value per replicate
     study.states["C"]                            # one value per state
     study.packing(study.names[0]).positions
-    study.contacts()["force"]                    # (contacts, 3)
-    study.table()                                # means and confidence intervals, as a pandas DataFrame
+    study.contacts().vectors("force")            # (contacts, 3)
+    study.table()                                # means and confidence intervals
 
 docs/python.md describes the module."""
 
@@ -16,11 +16,9 @@ from .commands import aggregate, measure, run
 from .errors import InputError, ManifestError, ProgramError
 from .facts import quantities
 from .facts import version as __version__
-from .packing import Packing
+from .packing import Packing, Solid
 from .rows import Rows
-from .solid import Solid
 from .study import Study, load
-from .table import read_table
 
 __all__ = ["InputError", "ManifestError", "Packing", "ProgramError", "Rows", "Solid", "Study", "__version__", "aggregate",
-           "load", "measure", "palette", "quantities", "read_table", "run"]
+           "load", "measure", "palette", "quantities", "run"]

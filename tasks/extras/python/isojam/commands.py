@@ -1,6 +1,5 @@
 """Functions that call commands of the program. Each returns the results directory as a Study."""
 
-import contextlib
 import json
 import os
 import pathlib
@@ -11,7 +10,6 @@ from typing import Any
 
 from . import program as _program
 from .errors import InputError, ManifestError
-from .files import open_file, reading
 from .program import Ended, Path
 from .progress import shown
 from .study import Study
@@ -31,23 +29,21 @@ def run(manifest: Mapping[str, Any] | Path, directory: Path, threads: int = 2, p
     progress   show the progress: as a bar if tqdm is installed, otherwise as text on stderr
     program    path of the program; without it, the module searches for the program
 
-    Warns if replicates failed. Raises ManifestError if the manifest has errors, and ProgramError if the program reports
-    another error. After a KeyboardInterrupt, repeat the call to resume."""
+    Warns if replicates failed. Raises ManifestError if the manifest has errors, InputError if a file has errors, and
+    ProgramError if the program reports another error. After a KeyboardInterrupt, repeat the call to resume."""
     words: list[Path] = ["-o", directory, "-j", str(threads)]
-    if not isinstance(manifest, Mapping):
-        file = os.fspath(manifest)
-        with reading(file), contextlib.suppress(FileNotFoundError):
-            open_file(file).close()
-        with shown(progress) as show:
-            ended = _program.call(program, ["run", file, *words], show=show)
-    else:
-        file = _STANDARD_INPUT
-        with tempfile.TemporaryFile("w+", encoding="utf-8") as stdin, shown(progress) as show:
+    file = _STANDARD_INPUT if isinstance(manifest, Mapping) else os.fspath(manifest)
+    if "\0" in file or os.path.exists(file) and not os.path.isfile(file):  # a pipe can block for ever
+        raise InputError(file, "", "not a regular file", "a manifest")
+    with shown(progress) as show, tempfile.TemporaryFile("w+", encoding="utf-8") as stdin:
+        if isinstance(manifest, Mapping):
             stdin.write(_text(manifest))
             stdin.seek(0)
-            ended = _program.call(program, ["run", file, *words], stdin=stdin, show=show)
+        ended = _program.call(program, ["run", file, *words], stdin=stdin, show=show)
+    for message in ended.errors:
+        message.update({key: _renamed(message[key]) for key in ("text", "file") if key in message})
     ended.warnings = [_renamed(text) for text in ended.warnings]
-    _refuse_manifest(ended, file)
+    _refuse_manifest(ended, _renamed(file))
     return _study(ended, directory, program)
 
 
@@ -68,12 +64,11 @@ def measure(directory: Path, *measures: str, threads: int = 2, progress: bool = 
 
 
 def aggregate(directory: Path, *, program: Path | None = None) -> Study:
-    """Writes the tables of a results directory to its file tables.json. Returns a Study with this table.
+    """Writes the tables of a results directory to its file tables.json. Returns a Study.
 
     `run` also writes the tables, except for a shard: after the last shard has ended, call this function."""
-    tables = pathlib.Path(directory, "tables.json")
-    table = _program.table(program, ["aggregate", directory, "--format", "csv", "-o", tables])
-    return Study(directory, program, table=table)
+    ended = _program.call(program, ["aggregate", directory, "-o", pathlib.Path(directory, "tables.json")])
+    return _study(ended, directory, program)
 
 
 def _text(manifest: Mapping[str, Any]) -> str:
@@ -99,24 +94,15 @@ def _refuse_manifest(ended: Ended, file: str) -> None:
     """Raises ManifestError if the program ended with errors and all of them are errors of the manifest.
 
     An error of JSON syntax has "file:line:column" in place of the file name."""
-    errors = ended.errors if ended.code == _BAD_INPUT else []
-    own = [error for error in errors if f"{error.get('file')}:".startswith(f"{file}:")]
-    if own and own == errors:
-        raise ManifestError([_input_error(error) for error in own]) from None
+    own = [error for error in ended.errors if f"{error.get('file')}:".startswith(f"{file}:")]
+    if ended.code == _BAD_INPUT and own and own == ended.errors:
+        raise ManifestError([InputError.reported(error) for error in own]) from None
 
 
 def _renamed(text: str) -> str:
     """Replaces the name of standard input at the beginning of a message by "manifest"."""
     name, colon, rest = text.partition(":")
     return f"manifest{colon}{rest}" if name == _STANDARD_INPUT else text
-
-
-def _input_error(error: Mapping[str, str]) -> InputError:
-    near = error["suggestion"]
-    own = InputError(_renamed(error["file"]), error["pointer"], error["problem"],
-                     f'did you mean "{near}"?' if near else error["allowed"])
-    own.args = (_renamed(error["text"]),)
-    return own
 
 
 def _study(ended: Ended, directory: Path, program: Path | None) -> Study:

@@ -1,14 +1,15 @@
 """Exceptions of the module. Each states what is wrong, where, and how to correct it."""
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 
 class InputError(ValueError):
     """An error in a file or in an argument.
 
     file     path of the file
-    place    JSON pointer, line or column of the error; "" for the whole file
+    place    JSON pointer of the error; "" for the whole file
     why      the problem
     allowed  the allowed values, or an instruction; "" if `why` is sufficient"""
 
@@ -17,6 +18,15 @@ class InputError(ValueError):
         self.file, self.place, self.why, self.allowed = str(file), place, why, allowed or remedy
         text = f"{self.file}: {place}: {why}" if place else f"{self.file}: {why}"
         super().__init__(text + (f"; expected {allowed}" if allowed else f"; {remedy}" if remedy else ""))
+
+    @classmethod
+    def reported(cls, message: Mapping[str, Any]) -> "InputError":
+        """The error in a message of the program."""
+        near = message["suggestion"]
+        error = cls(message["file"], message["pointer"], message["problem"],
+                    remedy=f'did you mean "{near}"?' if near else message["allowed"])
+        error.args = (message["text"],)
+        return error
 
 
 class ManifestError(InputError):

@@ -1,17 +1,18 @@
-"""Opens and parses files. A bad file causes an InputError, and no other exception."""
+"""Reads JSON files of isojam. A bad file causes an InputError, and no other exception."""
 
 import contextlib
 import json
-import math
 import os
-import stat
+import pathlib
 from collections.abc import Iterator
-from typing import IO, Any
+from typing import Any
 
 from .errors import InputError
 
-_KINDS = {stat.S_IFDIR: "a directory", stat.S_IFIFO: "a named pipe", stat.S_IFSOCK: "a socket", stat.S_IFCHR: "a device",
-          stat.S_IFBLK: "a device"}
+_BEFORE, _BLANK = b'"checksum": "', b"0" * 16
+#: The checksum begins before this position: it is the second member, and names of schemas are short.
+_FARTHEST = 200
+_WHOLE = "a complete file written by isojam"
 
 
 @contextlib.contextmanager
@@ -28,46 +29,45 @@ def reading(file: str | os.PathLike[str], expected: str = "", place: str = "") -
         raise InputError(file, place, f"cannot be read: {error.strerror}") from None
     except MemoryError:
         raise InputError(file, place, "out of memory", remedy="use a smaller file, or more memory") from None
-    except RecursionError:
-        raise InputError(file, place, "lists or objects are nested too deeply", expected) from None
-    except UnicodeDecodeError as error:
-        raise InputError(file, place, f"not a text file: {error.reason}", "UTF-8") from None
-    except json.JSONDecodeError as error:
-        raise InputError(file, place, f"not valid JSON: {error}", expected) from None
     except KeyError as error:
         raise InputError(file, place, f"the key {error} is missing", expected) from error
-    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+    except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
         raise InputError(file, place, f"cannot be read: {error}", expected) from error
 
 
-def open_file(file: str | os.PathLike[str], text: bool = False) -> IO[Any]:
-    """Opens a regular file for reading, as bytes or as text.
-
-    Anything else is an OSError: a pipe can block for ever, and a device may never end."""
-    if text:
-        return open(file, encoding="utf-8", newline="", opener=_open_regular)
-    return open(file, "rb", opener=_open_regular)
-
-
-def _open_regular(path: str, flags: int) -> int:
-    descriptor = os.open(path, flags | os.O_NONBLOCK)
-    kind = stat.S_IFMT(os.fstat(descriptor).st_mode)
-    if kind == stat.S_IFREG:
-        return descriptor
-    os.close(descriptor)
-    raise OSError(0, f"it is {_KINDS.get(kind, 'a special file')}, not a regular file")
-
-
-def parse_json(text: str | bytes) -> dict[str, Any]:
-    """Parses a JSON object. Raises an exception that `reading` converts. The numbers must be finite."""
-    document = json.loads(text, parse_float=_finite, parse_constant=_finite)
-    if not isinstance(document, dict):
-        raise ValueError("not an object")
-    return document
-
-
-def _finite(text: str) -> float:
-    value = float(text)
-    if not math.isfinite(value):
-        raise ValueError(f"{text:.20} is not a finite number")
+def fnv1a(data: bytes) -> int:
+    """The 64-bit FNV-1a hash of `data`."""
+    value = 0xCBF29CE484222325
+    for byte in data:
+        value = (value ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
     return value
+
+
+def _check_sum(data: bytes, file: pathlib.Path) -> None:
+    """The second key, "checksum", is the hash of the file with zeros in place of its sixteen digits."""
+    start = data.find(_BEFORE, 0, _FARTHEST) + len(_BEFORE)
+    end = start + len(_BLANK)
+    if start < len(_BEFORE):
+        raise InputError(file, "/checksum", "the file has no checksum", _WHOLE)
+    if b"%016x" % fnv1a(data[:start] + _BLANK + data[end:]) != data[start:end]:
+        raise InputError(file, "/checksum", "the file is damaged: its content does not match its checksum",
+                         "an unchanged file written by isojam")
+
+
+def read_document(file: pathlib.Path, schema: str = "", check: bool = True) -> dict[str, Any]:
+    """The document in a file that isojam wrote.
+
+    Raises InputError if the file cannot be read, or has another schema than `schema`. If `check` is true, also raises it
+    if the checksum does not match."""
+    with reading(file, _WHOLE):
+        if file.exists() and not file.is_file():  # a pipe can block for ever, and a device may never end
+            raise InputError(file, "", "not a regular file", _WHOLE)
+        data = file.read_bytes()
+        if check:
+            _check_sum(data, file)
+        document = json.loads(data)
+        if not isinstance(document, dict):
+            raise InputError(file, "", "not a JSON object", _WHOLE)
+        if schema and document.get("schema") != schema:
+            raise InputError(file, "/schema", f"unknown value {json.dumps(document.get('schema'))}", f'"{schema}"')
+    return document

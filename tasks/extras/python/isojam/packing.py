@@ -1,6 +1,6 @@
 """Packings: particles, their cell and their solids."""
 
-import functools
+import dataclasses
 import os
 from collections.abc import Callable
 from typing import Any
@@ -10,18 +10,31 @@ from numpy.typing import NDArray
 
 from .errors import InputError
 from .files import reading
-from .rows import Array
-from .solid import Solid
 
 Floats = NDArray[numpy.float64]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Solid:
+    """A convex polyhedron of unit volume. Its centroid is the origin of the body frame.
+
+    vertices  (V, 3)
+    faces     for each face, a list of indices of vertices, counter-clockwise seen from outside"""
+
+    name: str
+    vertices: Floats
+    faces: list[list[int]]
+
+    def __repr__(self) -> str:
+        return f"<{self.name}: {len(self.vertices)} vertices, {len(self.faces)} faces>"
 
 
 class Packing:
     """One packing of a replicate, in one state.
 
     name          name of the replicate
-    delta_phi     φ − φ_J
-    phi           density φ
+    delta_phi     φ − φ_J; NaN if there is no φ_J
+    density       density φ
     cell          (3, 3): the lattice vectors as rows, in units of V_p^(1/3)
     side          side of the cell; None if the cell is not a cube
     positions     (N, 3): centres, not wrapped into the cell
@@ -33,57 +46,53 @@ class Packing:
     Coordinates are double-doubles. The arrays above are the nearest doubles; `cell_low`, `positions_low` and
     `orientations_low` contain the remainders."""
 
-    def __init__(self, name: str, document: dict[str, Any], file: str | os.PathLike[str], place: str,
-                 shapes: Callable[[], dict[str, Solid]], delta_phi: float | None = None) -> None:
-        """Makes a packing from the JSON at `place` in a file. `shapes()` returns the solids of the replicate by name.
+    def __init__(self, name: str, document: dict[str, Any], delta_phi: float | None, shapes: Callable[[], dict[str, Solid]],
+                 file: str | os.PathLike[str], place: str = "") -> None:
+        """Makes a packing from the JSON at `place` in a file. `shapes()` returns the solids of the replicate by name."""
+        self.name, self._shapes = name, shapes
 
-        `delta_phi` is needed if the JSON does not contain it."""
-        self.name = name
-        self._document, self._file, self._place, self._shapes = document, file, place, shapes
-        self.delta_phi = self._number("delta_phi") if delta_phi is None else delta_phi
-        self.phi = self._number("phi")
-        n = len(self._at("positions"))
-        self.positions: Floats = self._array("positions", (n, 3))
-        self.orientations: Floats = self._array("orientations", (n, 4))
-        self.side = None if "cell" in document else self._number("side")
-        self.cell: Floats = self._array("cell", (3, 3)) if self.side is None else self.side * numpy.eye(3)
-        if "kinds" in document:
-            self.solid_names: tuple[str, ...] = tuple(kind["solid"] for kind in self._at("kinds"))
-            self.kind: NDArray[numpy.int_] = self._array("kind", (n,), int)
-            self.size: Floats = self._array("size", (n,))
-            if not ((self.kind >= 0) & (self.kind < len(self.solid_names))).all():
-                raise InputError(file, place + "/kind", "a particle has an unknown kind", "indices of elements of kinds")
+        def array(key: str, *shape: int, kinds: str = "if") -> Any:
+            numbers = " by ".join(map(str, shape)) + " numbers" if shape else "a number"
+            with reading(file, numbers, f"{place}/{key}"):
+                found = numpy.array(document[key])
+                if found.shape != shape or found.dtype.kind not in kinds or not numpy.isfinite(found).all():
+                    raise InputError(file, f"{place}/{key}", "not the numbers that belong here", numbers)
+                return found.astype(float if "f" in kinds else int)
+
+        with reading(file, "a packing written by isojam", place):
+            n = len(document["positions"])
+            mixed = "kinds" in document
+            self.solid_names = tuple(str(one["solid"]) for one in (document["kinds"] if mixed else [document]))
+        self.delta_phi = numpy.nan if delta_phi is None else float(delta_phi)
+        self.density = float(array("density"))
+        self.positions: Floats = array("positions", n, 3)
+        self.positions_low: Floats = array("positions_low", n, 3)
+        self.orientations: Floats = array("orientations", n, 4)
+        self.orientations_low: Floats = array("orientations_low", n, 4)
+        self.side = None if "cell" in document else float(array("side"))
+        if self.side is None:
+            self.cell: Floats = array("cell", 3, 3)
+            self.cell_low: Floats = array("cell_low", 3, 3)
         else:
-            self.solid_names = (self._at("solid"),)
-            self.kind, self.size = numpy.zeros(n, dtype=int), numpy.ones(n)
+            self.cell = self.side * numpy.eye(3)
+            self.cell_low = (array("side_low") if "side_low" in document else 0.) * numpy.eye(3)
+        self.kind: NDArray[numpy.int_] = array("kind", n, kinds="i") if mixed else numpy.zeros(n, dtype=int)
+        self.size: Floats = array("size", n) if mixed else numpy.ones(n)
+        if not ((self.kind >= 0) & (self.kind < len(self.solid_names))).all():
+            raise InputError(file, f"{place}/kind", "a particle has an unknown kind", "indices of elements of kinds")
 
     def __len__(self) -> int:
         """Number of particles."""
         return len(self.positions)
 
     def __repr__(self) -> str:
-        return f"<{self.name}: {len(self)} particles, phi {self.phi:.6g}, delta_phi {self.delta_phi:.3g}>"
+        return f"<{self.name}: {len(self)} particles, density {self.density:.6g}, delta_phi {self.delta_phi:.3g}>"
 
-    @functools.cached_property
-    def positions_low(self) -> Floats:
-        return self._array("positions_low", (len(self), 3))
-
-    @functools.cached_property
-    def orientations_low(self) -> Floats:
-        return self._array("orientations_low", (len(self), 4))
-
-    @functools.cached_property
-    def cell_low(self) -> Floats:
-        if self.side is None:
-            return self._array("cell_low", (3, 3))
-        return (self._number("side_low") if "side_low" in self._document else 0.) * numpy.eye(3)
-
-    @functools.cached_property
+    @property
     def solids(self) -> tuple[Solid, ...]:
         """The Solid of each kind of particle, with unit volume. The first access calls the program."""
-        with reading(self._file):
-            shapes = self._shapes()
-            return tuple(shapes[name] for name in self.solid_names)
+        shapes = self._shapes()
+        return tuple(shapes[name] for name in self.solid_names)
 
     def rotations(self) -> Floats:
         """(N, 3, 3): matrices that rotate the body frame of each particle into the lab frame."""
@@ -97,22 +106,3 @@ class Packing:
         vertices = self.size[particle] * self.solids[self.kind[particle]].vertices
         corners: Floats = self.positions[particle] + vertices @ self.rotations()[particle].T
         return corners
-
-    def _at(self, key: str) -> Any:
-        if key not in self._document:
-            raise InputError(self._file, self._place + "/" + key, "the required key is missing",
-                             "a packing written by isojam")
-        return self._document[key]
-
-    def _array(self, key: str, shape: tuple[int, ...], kind: type = float) -> Array:
-        expected = " by ".join(map(str, shape)) + (" integers" if kind is int else " numbers") if shape else "a number"
-        with reading(self._file, expected, f"{self._place}/{key}"):
-            array: Array = numpy.array(self._at(key))
-            if array.shape != shape:
-                raise ValueError("the list of numbers has the wrong shape")
-            if array.dtype.kind not in ("i" if kind is int else "if"):
-                raise TypeError("the list contains other values than numbers")
-            return array.astype(kind)
-
-    def _number(self, key: str) -> float:
-        return float(self._array(key, ()))

@@ -5,21 +5,22 @@ import dataclasses
 import functools
 import json
 import os
-import pathlib
 import shutil
 import signal
 import subprocess
 import tempfile
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import IO
 
+import numpy
+
 from . import facts
-from .errors import ProgramError
+from .errors import InputError, ProgramError
+from .files import reading
+from .packing import Solid
 from .progress import Message
-from .rows import Rows
-from .solid import Solid, read_obj
-from .table import read_table
+from .rows import Rows, read_csv
 
 #: Type of paths in arguments.
 Path = str | os.PathLike[str]
@@ -75,9 +76,14 @@ class Ended:
     errors: list[Message] = dataclasses.field(default_factory=list)
     warnings: list[str] = dataclasses.field(default_factory=list)
 
-    def error(self) -> ProgramError:
+    def error(self) -> InputError | ProgramError:
+        """The errors as an exception: InputError if all are about files, with the place of the first one."""
         text = "\n".join(error["text"] for error in self.errors)
-        return ProgramError(self.command, text or f"ended with exit code {self.code}")
+        if not self.errors or not all("file" in error for error in self.errors):
+            return ProgramError(self.command, text or f"ended with exit code {self.code}")
+        first = InputError.reported(self.errors[0])
+        first.args = (text,)
+        return first
 
     def warn(self, stacklevel: int) -> None:
         for text in self.warnings:
@@ -85,7 +91,7 @@ class Ended:
 
 
 def call(program: Path | None, words: Iterable[Path], stdin: int | IO[str] = subprocess.DEVNULL,
-         stdout: int | IO[str] = subprocess.DEVNULL, show: Callable[[Message], None] = lambda message: None) -> Ended:
+         stdout: int | IO[bytes] = subprocess.DEVNULL, show: Callable[[Message], None] = lambda message: None) -> Ended:
     """Runs the program and waits until it ends. `show` is called with each message about the progress.
 
     If Python is interrupted, the program is requested to stop. When it has stopped, the exception is raised again."""
@@ -150,23 +156,28 @@ def _stop(process: "subprocess.Popen[str]") -> None:
 
 def solids(program: Path | None, directory: Path, replicate: str) -> dict[str, Solid]:
     """The solids of a replicate, by their names."""
-    with tempfile.TemporaryDirectory() as folder:
-        ended = call(program, ["export", directory, replicate, "--format", "xyz", "-o",
-                               pathlib.Path(folder, "packing.xyz")])
-        if ended.code != 0:
-            raise ended.error()
-        found = [read_obj(file) for file in sorted(pathlib.Path(folder).glob("*.obj"))]
-    return {solid.name: solid for solid in found}
+    with printed(program, ["export", directory, replicate, "--format", "solids"]) as output:
+        return {name: Solid(name, numpy.array(solid["vertices"]), solid["faces"])
+                for name, solid in json.load(output).items()}
 
 
-def table(program: Path | None, words: list[Path], stacklevel: int = 3) -> Rows:
-    """Calls the program and returns the table that it prints.
+def table(program: Path | None, words: Iterable[Path], stacklevel: int = 3) -> Rows:
+    """The table that the program prints.
 
     Warnings refer to the line that called the function of the module. `stacklevel` counts the frames up to this line."""
-    with tempfile.TemporaryFile("w+", newline="", encoding="utf-8") as output:
+    with printed(program, words, stacklevel + 2) as output:
+        return read_csv(output)
+
+
+@contextlib.contextmanager
+def printed(program: Path | None, words: Iterable[Path], stacklevel: int = 5) -> Iterator[IO[bytes]]:
+    """Calls the program and gives its standard output."""
+    words = [os.fspath(word) for word in words]
+    with tempfile.TemporaryFile() as output:
         ended = call(program, words, stdout=output)
         ended.warn(stacklevel)
         if ended.code != 0:
             raise ended.error()
         output.seek(0)
-        return read_table(output, f"isojam {' '.join(map(str, words))}")
+        with reading(f"isojam {' '.join(words)}", "the output of isojam"):
+            yield output

@@ -1,39 +1,51 @@
 """Shows the progress of the program: as a bar if tqdm is installed, otherwise as text on stderr."""
 
 import contextlib
-import shutil
+import io
+import os
 import sys
 import time
 from collections.abc import Callable, Iterator
-from typing import Any, TextIO
+from typing import Any
 
 #: A message of the program, which is one line of its stderr.
 Message = dict[str, Any]
 
-#: Seconds between two lines if stderr is not a terminal.
+#: Seconds between two lines of text.
 _INTERVAL = 5
-_CLEAR = "\r\033[K"
 
 
 @contextlib.contextmanager
 def shown(wanted: bool) -> Iterator[Callable[[Message], None]]:
-    """Gives a function that shows a message about the progress. If `wanted` is false, this function does nothing."""
-    display = _display() if wanted else None
-    if display is None:
-        yield lambda message: None
-        return
+    """Gives a function that shows a message about the progress. Without a standard error it does nothing, and a standard
+    error that fails does not end the run."""
+    display: _Bar | _Text | None = None
+    if wanted and _can_write():
+        try:
+            from tqdm.auto import tqdm  # type: ignore[import]
+            display = _Bar(tqdm)
+        except ImportError:
+            display = _Text()
+
+    def attempt(call: Callable[..., None], *arguments: Message) -> None:
+        with contextlib.suppress(OSError, ValueError):
+            call(*arguments)
+
     try:
-        yield display.show
+        yield lambda message: attempt(display.show, message) if display else None
     finally:
-        display.close()
+        attempt(display.close if display else lambda: None)
 
 
-def _display() -> "_Bar | _Text | None":
+def _can_write() -> bool:
+    """False if there is no standard error, or if it is closed: its descriptor may then belong to another file."""
     try:
-        from tqdm.auto import tqdm  # type: ignore[import]
-    except ImportError:
-        return _Text(sys.stderr) if sys.stderr else None
-    return _Bar(tqdm)
+        os.fstat(sys.stderr.fileno())
+    except io.UnsupportedOperation:  # in a notebook
+        return not sys.stderr.closed
+    except (AttributeError, OSError, ValueError):
+        return False
+    return True
 
 
 class _Bar:
@@ -58,31 +70,17 @@ class _Bar:
 
 
 class _Text:
-    """Prints messages of the program. A terminal has one line that changes. Any other stream gets a line every few
-    seconds, and the last message."""
+    """Prints a message of the program every few seconds, and the last one."""
 
-    def __init__(self, stream: TextIO) -> None:
-        self._stream, self._terminal = stream, stream.isatty()
+    def __init__(self) -> None:
         self._last, self._written = "", time.monotonic()
 
     def show(self, message: Message) -> None:
         self._last = message["text"]
-        if self._terminal:
-            width = shutil.get_terminal_size().columns
-            self._put(_CLEAR + self._last[:width - 1])
-        elif time.monotonic() - self._written > _INTERVAL:
-            self._put_line()
+        if time.monotonic() - self._written > _INTERVAL:
+            self.close()
 
     def close(self) -> None:
-        if self._terminal:
-            self._put(_CLEAR)
         if self._last:
-            self._put_line()
-
-    def _put_line(self) -> None:
-        self._put(f"isojam: {self._last}\n")
+            print(f"isojam: {self._last}", file=sys.stderr, flush=True)
         self._last, self._written = "", time.monotonic()
-
-    def _put(self, text: str) -> None:
-        self._stream.write(text)
-        self._stream.flush()
