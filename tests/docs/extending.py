@@ -53,7 +53,7 @@ def check(program, module, folder):
     manifest = json.loads(run(program, "schema", "manifest"))
     assert f'"{PARAMETER}"' in json.dumps(manifest) and PARAMETER in run(program, "fields", PARAMETER)
     rows = list(csv.DictReader(io.StringIO(run(program, "export", folder / "results", "--format", "replicates"))))
-    frame = json.loads(run(sys.executable, "-c", "import isojam, json, sys\nrow = isojam.open(sys.argv[1]).replicates"
+    frame = json.loads(run(sys.executable, "-c", "import isojam, json, sys\nrow = isojam.load(sys.argv[1]).replicates"
                            ".iloc[0]\nprint(json.dumps({n: float(row[n]) for n in sys.argv[2:]}))", folder / "results",
                            QUANTITY[2], MEASURE[2], env={**os.environ, "PYTHONPATH": str(module)}))
     for key, value_of, name in (QUANTITY, MEASURE):
