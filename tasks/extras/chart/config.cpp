@@ -13,7 +13,7 @@ namespace isojam {
 namespace {
 
 constexpr Range seed_range{0, 9007199254740992};  // 2^53: every JSON reader represents smaller integers exactly
-constexpr Range count_range{1, 1000};
+constexpr Range few_range{1, 1000};
 constexpr Range particle_range{8, 2000};
 constexpr Range distance_range{1e-3, 0.2};
 constexpr Range tolerance_range{0, 1, true};
@@ -28,7 +28,7 @@ void visit_chart(Config& config, const Visitor& visit) {
   visit("solids", config.solids, Range{});
   visit("seed", config.seed, seed_range);
   visit("particles", config.particles, particle_range);
-  visit("packings", config.packings, count_range);
+  visit("packings", config.packings, few_range);
   visit("distances", config.distances, distance_range);
   visit("fit_window", config.fit_window, distance_range);
   visit("tolerances", config.tolerances, tolerance_range);
@@ -37,7 +37,7 @@ void visit_chart(Config& config, const Visitor& visit) {
   visit("shifts", config.shifts, tolerance_range);
   visit("subspaces", config.subspaces, subspace_range);
   visit("pairs", config.pairs, Range{1, 1e5});
-  visit("repetitions", config.repetitions, count_range);
+  visit("repetitions", config.repetitions, few_range);
   visit("max_evaluations", config.max_evaluations, evaluation_range);
   visit("rule_evaluations", config.rule_evaluations, evaluation_range);
   visit("point_seconds", config.point_seconds, second_range);
