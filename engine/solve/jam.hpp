@@ -224,8 +224,8 @@ struct JamProgress {
   /// branch.
   int lost = -1;
   JamResult result;  ///< result so far; its status is not_called until the run has ended
-  /// True if the run began with begin_decompression(). Decompression then begins at any energy. Otherwise the run returns
-  /// to compression if the first minimisation of the decompression reduces the energy too far
+  /// True if the run began with begin_decompression(). Decompression then begins at any energy. Otherwise the run
+  /// returns to compression if the first minimisation of the decompression reduces the energy too far
   /// (Compression::target_before_relaxation).
   bool jammed = false;
 

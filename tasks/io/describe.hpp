@@ -27,9 +27,9 @@
 // From it follow written(bins), read<Bins>(place) and fields_of<Bins>(), and from the fields the schema, the page of
 // fields, the columns of tables and the quantities of a measure (tasks/io/fields.hpp). The order of the fields is that
 // of the file. A member may be a number, a bool, a text, an enumerator with a name, a Reasoned value, another described
-// struct, an optional of one of these (absent in the file if it has no value), a list of these, or a Custom value. A key
-// with stars stands for keys with numbers from 1 in their place: with `kind_*`, the elements of a list are the fields
-// kind_1, kind_2, …; with `Z_*_*`, the fields Z_1_1, Z_1_2, … are the elements of a list of lists.
+// struct, an optional of one of these (absent in the file if it has no value), a list of these, or a Custom value. A
+// key with stars stands for keys with numbers from 1 in their place: with `kind_*`, the elements of a list are the
+// fields kind_1, kind_2, …; with `Z_*_*`, the fields Z_1_1, Z_1_2, … are the elements of a list of lists.
 
 namespace isojam {
 

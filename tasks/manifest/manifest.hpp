@@ -82,9 +82,9 @@ std::vector<OptionSet> option_sets(const Manifest& manifest);
 /// The options in `set`, with the values that the manifest has only for this solid.
 JamOptions options_of(const Manifest& manifest, const OptionSet& set, const Mixture& solid);
 
-/// Parses a manifest and checks it in stages: first the JSON syntax and the checksum, then each value and combinations of
-/// values without errors, and last the files of /start if it has no digests. Throws one InputError with all errors of
-/// the first stage that finds an error. `file` is the name of the manifest in error messages; paths in /start are
+/// Parses a manifest and checks it in stages: first the JSON syntax and the checksum, then each value and combinations
+/// of values without errors, and last the files of /start if it has no digests. Throws one InputError with all errors
+/// of the first stage that finds an error. `file` is the name of the manifest in error messages; paths in /start are
 /// relative to its folder.
 Manifest parse_manifest(std::string_view text, const std::string& file);
 /// Reads a manifest of the user and checks it like parse_manifest(), but always reads the files of /start. The file

@@ -21,8 +21,8 @@ struct Start {
   TypeNames types{};                       ///< solids of the particle types whose shapes are not in the files
 };
 
-/// Paths are relative to the folder of the manifest. The canonical form of a manifest has an additional key "digests" with
-/// the digests of the files. The files are not read, see load_start().
+/// Paths are relative to the folder of the manifest. The canonical form of a manifest has an additional key "digests"
+/// with the digests of the files. The files are not read, see load_start().
 void describe(Fields& field, Start& start);
 
 /// Reads the files that have not been read yet. `place` is the location of /start in the manifest. Throws InputError in

@@ -35,7 +35,8 @@ constexpr double scatter = 0.03;
 constexpr long insufficient_evaluations = 60000;
 constexpr double near_jamming = 0.01, residual_left = 3e-4;
 
-/// Tetrahedra that are relaxed with fewer evaluations during compression jam at lower densities: see examples/02-strain-step.
+/// Tetrahedra that are relaxed with fewer evaluations during compression jam at lower densities: see
+/// examples/02-strain-step.
 constexpr int relaxed_evaluations = 500;
 
 class Warnings {
@@ -227,8 +228,9 @@ void look_at_cohesion(const Manifest& manifest, const std::vector<OptionSet>& se
   } else if (manifest.start && manifest.start->stage == JamStage::decompression) {
     const auto ends = [](const OptionSet& set) { return ends_at_zero_pressure(set.options); };
     if (std::none_of(sets.begin(), sets.end(), ends))
-      warnings.add("cohesion.until", "",
-                   "cohesion has no effect, because it acts only during compression, and /start/stage is decompression");
+      warnings.add(
+          "cohesion.until", "",
+          "cohesion has no effect, because it acts only during compression, and /start/stage is decompression");
   }
 }
 

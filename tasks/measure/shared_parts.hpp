@@ -62,8 +62,8 @@ struct Scaling {
   Reasoned<> exponent, ci95_half_width;
   int points = 0;  ///< number of fitted states
 };
-/// Fits the law to the states with Δφ ≤ scaling_window. `y` has one element for each state; an element is nullopt if y is
-/// unknown in this state.
+/// Fits the law to the states with Δφ ≤ scaling_window. `y` has one element for each state; an element is nullopt if y
+/// is unknown in this state.
 Scaling scaling_of(const JamResult& jam, const std::vector<std::optional<double>>& y);
 /// Adds the law of the quantity with this symbol. The exponent is a quantity too; its name is "x_" and `name`.
 void add_scaling(Fields& field, const std::string& key, Scaling& law, const std::string& name, std::string_view latex,

@@ -214,8 +214,8 @@ class Run {
     stop_.request_stop();
   }
 
-  /// Waits until all tasks have ended after an exception. The nodes are destroyed before the graph, so no task may still
-  /// use them. If waiting fails again and again for lack of memory, the program ends.
+  /// Waits until all tasks have ended after an exception. The nodes are destroyed before the graph, so no task may
+  /// still use them. If waiting fails again and again for lack of memory, the program ends.
   static void drain(flow::graph& graph) {
     constexpr int attempts = 100;
     graph.cancel();

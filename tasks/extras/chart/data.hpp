@@ -19,8 +19,8 @@ std::span<const ChartPoint> points_of(std::span<const ChartFamily> families, std
 
 /// Whole sentences: one for each residual that was requested, largest first. It states in how many cases each method
 /// reaches the residual, and in how many it is the fastest. If the paper's stopping rule was measured, the last line
-/// states the residuals and the errors of φ_J with this rule. The arguments are the points of the families `equilibrium`
-/// and `bias`.
+/// states the residuals and the errors of φ_J with this rule. The arguments are the points of the families
+/// `equilibrium` and `bias`.
 std::vector<std::string> conclusion(std::span<const ChartPoint> equilibrium, std::span<const ChartPoint> bias);
 
 /// The chart as text: a table for each family and for the atlas, the costs of the parts, and the conclusion.

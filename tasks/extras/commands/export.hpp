@@ -12,8 +12,8 @@
 
 namespace isojam {
 
-/// Formats of an export. The first three are for packings. The next three are tables with one row per contact, replicate
-/// or state. The last one is a JSON object with the shapes of the solids.
+/// Formats of an export. The first three are for packings. The next three are tables with one row per contact,
+/// replicate or state. The last one is a JSON object with the shapes of the solids.
 enum class Exported { gsd, vtp, xyz, contacts, replicates, states, solids };
 template <>
 inline constexpr std::array enum_names<Exported>{EnumName{Exported::gsd, "gsd"},

@@ -26,8 +26,8 @@ enum class RowOf : std::uint8_t {
 /// - flags, separated by "; ", and excluded (true if the replicate is excluded from means)
 /// - state (its index), only for states nearest (true for the state nearest jamming), and the fields of every state
 /// - one column per measured quantity, with its name in tables
-/// - the other numbers and texts of the measures; only for replicates also those of the record. Their names are the keys
-///   that lead to the value, separated by dots.
+/// - the other numbers and texts of the measures; only for replicates also those of the record. Their names are the
+///   keys that lead to the value, separated by dots.
 /// - reasons for missing quantities, separated by "; "
 ///
 /// Numbers are copied from the records. A missing value is null.
