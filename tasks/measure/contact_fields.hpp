@@ -164,7 +164,7 @@ struct Contacts {
   int pooled_over = 1;
   std::vector<KnownNumbers> kinds;
   std::optional<std::vector<ShapePairRecord>> shape_pairs;
-  AngleBins angle_bins;
+  std::optional<AngleBins> angle_bins;  ///< absent only in records that were made up
   Troughs trough;
   std::optional<Partial> partial;
   std::optional<Reasoned<>> mixing;

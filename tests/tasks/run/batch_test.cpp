@@ -78,7 +78,7 @@ TEST_F(Batch, EverythingConformsToTheSchemas) {
     const auto schema = name == "tables.json"             ? "tables"
                         : name == "manifest.json"         ? "manifest"
                         : name.rfind("packings/", 0) == 0 ? "packing"
-                                                          : "replicate";
+                                                          : "record";
     EXPECT_EQ(test::violations(schema, parse_json(content, name)), "") << name;
     ++checked;
   }

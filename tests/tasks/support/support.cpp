@@ -162,9 +162,7 @@ namespace {
 Json state_of(const ContactAnalysis& analysis) {
   ContactsOfState state{contact_record(analysis)};
   state.contacts.trough = troughs_of({}, 1);
-  Json json = written(state);
-  json.at("contacts").erase("angle_bins");
-  return json;
+  return written(state);
 }
 
 }  // namespace

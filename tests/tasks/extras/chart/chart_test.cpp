@@ -103,8 +103,9 @@ TEST(ChartFront, ContainsTheBestPoints) {
        made_up("t", "good", 4, 1e-6), made_up("t", "same as good", 4, 1e-6), made_up("t", "failed", 0.1, 0, true),
        made_up("t", "no error", 0.1, {}), made_up("t", "as fast, worse", 1, 1e-1),
        made_up("another case", "alone", 100, 1)}};
+  const Json data = chart_data(ChartConfig(), {{family}, {}, {}});
   std::vector<std::string> front;
-  for (const Json& point : chart_data(ChartConfig(), {{family}, {}, {}}).at("families")[0].at("points")) {
+  for (const Json& point : data.at("families")[0].at("points")) {
     if (point.at("on_front")) front.push_back(point.at("method"));
   }
   EXPECT_EQ(front, (std::vector<std::string>{"slow and exact", "fast", "good", "alone"}));
