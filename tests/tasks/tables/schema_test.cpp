@@ -132,7 +132,9 @@ TEST(RecordSchema, RejectsDamagedRecords) {
   for (const auto& item : record.items()) {
     auto damaged = record;
     damaged.erase(item.key());
-    EXPECT_NE(violations("record", damaged), "") << "without " << item.key();
+    // The first is added when the file is written, the second is absent if the replicate failed.
+    const bool can_be_absent = item.key() == "checksum" || item.key() == "rearrangements";
+    EXPECT_EQ(violations("record", damaged).empty(), can_be_absent) << "without " << item.key();
   }
   for (const std::string pointer :
        {"/status", "/phi_j/phi_j", "/states/0/density", "/path/0/stage", "/timing/wall_seconds"}) {
