@@ -30,13 +30,14 @@ std::vector<ExitCodeDescription> exit_codes() {
           {ExitCode::interrupted, "interrupted; repeat the command to resume"}};
 }
 
+constexpr auto examples =
+    "Examples:\n"
+    "  isojam run examples/01-four-solids/manifest.json\n"
+    "  isojam aggregate results/four-solids --all\n"
+    "  isojam report results/four-solids\n\n";
+
 std::string help_footer() {
-  std::string text =
-      "Examples:\n"
-      "  isojam run examples/01-four-solids/manifest.json\n"
-      "  isojam aggregate results/four-solids --all\n"
-      "  isojam report results/four-solids\n\n"
-      "Exit codes:\n";
+  std::string text = "Exit codes:\n";
   for (const auto& [code, meaning] : exit_codes())
     text += fmt::format("  {:>2}: {}\n", static_cast<int>(code), meaning);
   return text;
@@ -293,9 +294,10 @@ std::optional<ExitCode> parse_command_line(int argc, char** argv, std::span<cons
   app.require_subcommand(1);
   app.fallthrough();
   app.set_version_flag("--version", version_text());
-  app.footer(help_footer());
+  app.footer(help_footer());  // of all commands
   add_console_options(Options(app), session.console);
   for (const AddCommand add : commands) add(app, session);
+  app.footer(examples + help_footer());
   session.program = describe_program(app);
   try {
     app.parse(argc, argv);

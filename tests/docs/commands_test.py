@@ -21,7 +21,7 @@ LINE = re.compile(r"(?:^|[\s(])(?:build/)?isojam ((?:-{1,2}[a-z-]+ )*[a-z]+\b.*)
 STANDS_FOR = {"MANIFEST": "manifest.json", "DIR": "results", "DIR...": "results", "N": "1", "I/N": "1/2",
               "K/200": "1/200", "GIB": "1", "FLAG,...": "crystalline", "PARAMETER=VALUE,...": "step_fraction=0.35",
               "MEASURE,...": "clusters", "MEASURES": "order", "YYYY-MM-DD": "2026-01-31",
-              "L": "CC-BY-4.0", "NAME": "Ada",
+              "L": "CC-BY-4.0", "NAME": "record",
               "examples/NAME/manifest.json": "examples/01-four-solids/manifest.json"}
 
 
