@@ -195,7 +195,6 @@ class Pages:
 
         def forge(record):
             record["provenance"]["compiler"] = HOSTILE + "<img src=x onerror=alert(2)>"
-            record["flags"] = ["</script>" + HOSTILE]
 
         for path in sorted((directory / "records").iterdir()):
             change_record(path, forge)
