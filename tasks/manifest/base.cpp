@@ -40,6 +40,9 @@ Json value_of(const std::string& word, const Parameter& parameter) {
 }
 
 std::string unknown_parameter(const std::string& name) {
+  JamOptions options;
+  for (const auto& [before, now] : flat_fields(options).renamed)
+    if (before == name) return fmt::format("unknown parameter \"{}\"; did you mean \"{}\"?", name, now);
   const auto names = parameter_names();
   return unknown_name("parameter", name, names, "\"none\" or ");
 }

@@ -329,6 +329,7 @@ TEST_F(BaseTest, AnInvalidBaseIsRejectedWithTheAllowedValues) {
   write("r");
   const std::vector<std::pair<std::string, std::string>> wrong{
       {"step_fracton=0.35", "did you mean \"step_fraction\"?"},
+      {"consolidation_step=0.1", "did you mean \"compression_step\"?"},
       {"solid=cube", "unknown parameter \"solid\"; expected \"none\" or one of \"initial_density\""},
       {"step_fraction", "PARAMETER=VALUE separated by commas"},
       {"", "PARAMETER=VALUE separated by commas"},
