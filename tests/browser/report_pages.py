@@ -185,7 +185,7 @@ class Pages:
     def single(self, name, source):
         directory = self.copied(name, source)
         for folder in ("records", "packings"):
-            for path in sorted((directory / folder).iterdir())[1:]:
+            for path in sorted((directory / folder).iterdir())[:-1]:
                 path.unlink()
         return directory
 

@@ -161,6 +161,12 @@ Json shear_points(const Json& record) {
   return points;
 }
 
+/// The nearest state, which alone has angles and a density of states. Null if the replicate failed.
+Json nearest_state(const Json& record) {
+  const auto nearest = number_at(record, "/nearest");
+  return nearest.is_null() ? Json(nullptr) : value_at(record, "/states/" + std::to_string(nearest.get<int>()));
+}
+
 Json replicate_entry(const RecordedReplicate& replicate, int row, const std::vector<Flag>& exclude) {
   const auto& record = replicate.record;
   Json json;
@@ -183,12 +189,13 @@ Json replicate_entry(const RecordedReplicate& replicate, int row, const std::vec
   json["line"] = extrapolation(record);
   json["stops"] = stop_counts(record);
   json["density_of_states"] = nullptr;
+  const auto nearest = nearest_state(record);
   for (const std::string key : {"log10_omega", "density"}) {
-    const auto list = numbers_at(record, "/nearest/modes/density_of_states/" + key);
+    const auto list = numbers_at(nearest, "/modes/density_of_states/" + key);
     if (!list.empty()) json["density_of_states"][key] = list;
   }
-  json["lowest"] = numbers_at(record, "/nearest/modes/lowest/omega");
-  json["highest"] = numbers_at(record, "/nearest/modes/highest/omega");
+  json["lowest"] = numbers_at(nearest, "/modes/lowest/omega");
+  json["highest"] = numbers_at(nearest, "/modes/highest/omega");
   json["shear"] = shear_points(record);
   return json;
 }
@@ -217,14 +224,6 @@ Members counting(const Members& members, const std::vector<Flag>& exclude) {
   return list;
 }
 
-/// The nearest state. Only this state has stored angles.
-Json state_with_angles(const Json& record) {
-  for (const auto& state : list_at(record, "/states")) {
-    if (state.contains("/contacts/angles"_json_pointer)) return state;
-  }
-  return value_at(record, "/nearest");
-}
-
 /// Distributions of the angles over the contacts of all replicates. Null if no replicate has angles.
 Json pooled_angles(const Members& members) {
   Json json;
@@ -232,7 +231,7 @@ Json pooled_angles(const Members& members) {
     std::vector<double> angles, cutoffs;
     int replicates = 0;
     for (const auto* member : members) {
-      const auto state = state_with_angles(member->record);
+      const auto state = nearest_state(member->record);
       auto more = numbers_at(state, "/contacts/angles/" + kind);
       replicates += more.empty() ? 0 : 1;
       angles.insert(angles.end(), more.begin(), more.end());
@@ -278,7 +277,7 @@ Json row_entry(const Row& row, const Members& chosen) {
   json["scaling"] = {{"omega_l", pooled_scaling(chosen, "omega_l")}, {"omega_h", pooled_scaling(chosen, "omega_h")}};
   json["angles"] = pooled_angles(chosen);
   std::vector<Json> nearest;
-  for (const auto* member : chosen) nearest.push_back(state_with_angles(member->record));
+  for (const auto* member : chosen) nearest.push_back(nearest_state(member->record));
   json["distributions"] = pooled_distributions(nearest);
   return json;
 }
