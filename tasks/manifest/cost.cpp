@@ -77,6 +77,7 @@ constexpr std::array measure_laws{
     MeasureLaw{Measure::strict, 0.1, 2.1},
     MeasureLaw{Measure::shear, 0.1, decompression_size_power},
     MeasureLaw{Measure::rigidity, 0.025, 2.5},
+    MeasureLaw{Measure::exponents, 0.3, 2.0},
     MeasureLaw{Measure::backbone, 0.06, 3},
     MeasureLaw{Measure::difference_modes, 0.68, 2.3},
     MeasureLaw{Measure::prestress, 0.28, 2.4},

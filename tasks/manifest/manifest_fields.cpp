@@ -267,6 +267,10 @@ void describe(Fields& field, Manifest& manifest) {
   field("shear", manifest.measuring.shear,
         "Quasi-static shear of the state nearest jamming. Only the measure `shear` uses this key.")
       .optional();
+  field("exponents_of_all_states", manifest.measuring.exponents_of_all_states,
+        "If true, the measure `exponents` measures all states of the decompression. If false, it measures only the "
+        "state nearest jamming.")
+      .optional();
   field("keep_path", manifest.keep_path,
         "If true, isojam saves the packings of all states of each decompression. If false, it saves only the states "
         "nearest jamming. You can change this key later in the same results directory.")

@@ -105,6 +105,9 @@ void describe(Fields& field, ReplicateSpec& spec) {
   field("modes", spec.measuring.modes, "Number of vibrational modes computed at each end of the spectrum.");
   field("shear", spec.measuring.shear,
         "All keys of `shear` in the manifest. Keys that the manifest leaves out have their default values.");
+  field("exponents_of_all_states", spec.measuring.exponents_of_all_states,
+        "True if the measure `exponents` measured all states, and not only the state nearest jamming.")
+      .if_true();
   const auto start_of = [](Start& start, std::size_t replicate) {
     return Nested{[&start, replicate](Fields& of) {
       of("digest", start.files[replicate].digest, "Digest of the file.");

@@ -18,6 +18,7 @@ namespace isojam {
 struct MeasureOptions {
   int modes = 50;  ///< number of vibrational modes at each end of the spectrum; the paper averages over 50 modes
   ShearOptions shear;
+  bool exponents_of_all_states = false;  ///< false: the measure `exponents` measures only the state nearest jamming
   Cohesion cohesion{};  ///< cohesion that acts in the states; by default none
 };
 

@@ -1,0 +1,206 @@
+#include "engine/analysis/exponents.hpp"
+
+#include <algorithm>
+
+#include "engine/vibration/backbone.hpp"
+#include "tasks/measure/rank_parts.hpp"
+#include "tasks/measure/shared_parts.hpp"
+
+namespace isojam {
+namespace {
+
+// Classifies contacts by their exponents x, which needs no cut-off angle, and counts the constraints that are missing.
+
+constexpr QuantityGroup group{
+    "constraints", "Contacts and constraints of the state nearest jamming, with classes from the exponents of contacts."};
+
+/// C and the missing rank without near-rattlers.
+struct BackboneCount {
+  int removed = 0;
+  Reasoned<> C, missing;
+  Reasoned<int> self_stress;
+};
+
+struct Exponents {
+  Reasoned<> Z_ff, Z_ef, Z_l, C, C_low, C_high, missing, missing_low, missing_high, between;
+  Rank rank;
+  BackboneCount backbone;
+  double step = 0;
+  int broken = 0, formed = 0;
+  std::vector<std::optional<double>> x;
+};
+
+void describe(Fields& field, BackboneCount& backbone) {
+  field("removed", backbone.removed, "Number of near-rattlers that were removed.");
+  field("C", backbone.C, "Constraint number of the remaining particles.")
+      .unit("per particle")
+      .column({"C_x_backbone", group, "C^{bb}", "Constraint number C without near-rattlers."});
+  field("missing", backbone.missing, "Missing rank per remaining particle.")
+      .unit("per particle")
+      .column({"m_backbone", group, "m^{bb}", "Missing constraints m without near-rattlers."});
+  field("self_stress", backbone.self_stress, "Number of states of self-stress of the remaining particles.");
+}
+
+void describe_classes(Fields& field, Exponents& exponents) {
+  const auto add = [&](std::string_view key, Reasoned<>& value, std::string_view name, std::string_view latex,
+                       std::string_view meaning) {
+    field(key, value, meaning).unit("per particle").column({std::string(name), group, std::string(latex)});
+  };
+  add("C", exponents.C, "C_x", "C^x", "Constraint number C = 3 Z_ff + 2 Z_ef + Z_l with classes from exponents.");
+  add("C_low", exponents.C_low, "C_x_low", "C^x_{low}",
+      "Constraint number C if contacts are face-face with x < −4 and edge-face with x < 0.3. (`C_high` − `C_low`)/2 is "
+      "the systematic error of C from the boundaries of the classes.");
+  add("C_high", exponents.C_high, "C_x_high", "C^x_{high}",
+      "Constraint number C if contacts are face-face with x < −1 and edge-face with x < 0.7.");
+  add("missing", exponents.missing, "m", "m",
+      "Missing constraints: (6N − 3 − rank)/N, where the rank is that of the rigidity matrix with classes from "
+      "exponents. It is 0 if the constraints suppress all motions but translations.");
+  add("missing_low", exponents.missing_low, "m_low", "m_{low}",
+      "Missing constraints with the classes of `C_high`, which have the most constraints.");
+  add("missing_high", exponents.missing_high, "m_high", "m_{high}",
+      "Missing constraints with the classes of `C_low`, which have the fewest constraints.");
+  add("Z_ff", exponents.Z_ff, "Z_ff_x", "Z_{ff}^x", "Number of face-face contacts per particle: x < −2.5.");
+  add("Z_ef", exponents.Z_ef, "Z_ef_x", "Z_{ef}^x", "Number of edge-face contacts per particle: −2.5 ≤ x < 0.5.");
+  add("Z_l", exponents.Z_l, "Z_l_x", "Z_l^x", "Number of lower-order contacts per particle: x ≥ 0.5, or broken.");
+  add("between", exponents.between, "Z_between", "Z_{0.3..0.7}",
+      "Number of contacts per particle with 0.3 < x < 0.7, between the classes edge-face and lower-order.");
+}
+
+void describe(Fields& field, Exponents& exponents) {
+  describe_classes(field, exponents);
+  const std::string condition = "if the classes of the contacts come from their exponents.";
+  field.nested(
+      "rank", [&, condition](Fields& inner) { describe_rank(inner, exponents.rank, "x", "x", condition); },
+      "Rigidity matrix in which a face-face contact has three constraints, an edge-face contact two and a lower-order "
+      "contact one.");
+  field("backbone", exponents.backbone,
+        "The same without near-rattlers. Each contact keeps the class that it has in the whole packing.");
+  field("step", exponents.step,
+        "Length of the step of decompression from which the exponents were computed, as a fraction of Δφ; 0 if no step "
+        "was possible.");
+  field("broken", exponents.broken, "Number of contacts that break in this step. They have no exponent.");
+  field("formed", exponents.formed, "Number of contacts that form in this step.");
+  field("x", exponents.x,
+        "Exponents x = d ln(|S|²/V) / d ln f^(1/5) of the contacts, in the order of the contacts; null for a contact "
+        "that breaks.")
+      .detail();
+}
+
+struct State {
+  std::optional<Exponents> exponents;
+};
+void describe(Fields& field, State& state) {
+  field("exponents", state.exponents,
+        "Classes of the contacts from their exponents. Unless `exponents_of_all_states` is true, only the state nearest "
+        "jamming has this field.");
+}
+
+double per_particle(long count, int particles) { return 2 * static_cast<double>(count) / particles; }
+
+/// (6N − 3 − rank)/N.
+Reasoned<> missing(const Rank& rank, int particles) {
+  return reasoned(rank.floppy.value ? std::optional((*rank.floppy.value - 3.0) / particles) : std::nullopt,
+                  rank.floppy.reason);
+}
+
+struct Followed {
+  ClassifiedContacts classified;
+  ContactExponents exponents;
+
+  std::vector<ContactClass> classes(const ExponentBoundaries& boundaries = {}) const {
+    return classes_of(exponents, classified.alignments, boundaries);
+  }
+};
+
+void add_backbone(BackboneCount& record, const Packing& packing, const Followed& followed,
+                  std::span<const ContactClass> all_classes) {
+  const auto backbone = backbone_of(packing, {.lowest = 1, .highest = 1}, state_precision);
+  record.removed = static_cast<int>(backbone.removed.size());
+  if (backbone.kept.empty()) {
+    record.C.reason = record.missing.reason = record.self_stress.reason = "no particle is left";
+    return;
+  }
+  const auto within = contacts_within(followed.classified.contacts, backbone.kept, packing.size());
+  std::vector<Alignment> alignments;
+  std::vector<ContactClass> classes;
+  for (const auto place : within.places) {
+    alignments.push_back(followed.classified.alignments[place]);
+    classes.push_back(all_classes[place]);
+  }
+  const int n = backbone.packing.size();
+  const auto rank = rank_of(class_constraints(backbone.packing, within.contacts, alignments, classes));
+  record.C.value = contact_numbers(n, classes).C;
+  record.missing = missing(rank, n);
+  record.self_stress = rank.self_stress;
+}
+
+void add_classes(Exponents& record, const Packing& packing, const Followed& followed) {
+  const int n = packing.size();
+  const auto& [contacts, alignments, analysis] = followed.classified;
+  const auto rank = [&](std::span<const ContactClass> classes) {
+    return rank_of(class_constraints(packing, contacts, alignments, classes));
+  };
+  const auto classes = followed.classes(), fewest = followed.classes(fewest_constraints),
+             most = followed.classes(most_constraints);
+  const auto numbers = contact_numbers(n, classes);
+  record.Z_ff.value = numbers.Z_ff;
+  record.Z_ef.value = numbers.Z_ef;
+  record.Z_l.value = numbers.Z_l;
+  record.C.value = numbers.C;
+  record.C_low.value = contact_numbers(n, fewest).C;
+  record.C_high.value = contact_numbers(n, most).C;
+  const auto is_between = [](const auto& x) {
+    return x && *x > fewest_constraints.edge_face && *x < most_constraints.edge_face;
+  };
+  record.between.value = per_particle(std::ranges::count_if(followed.exponents.x, is_between), n);
+  record.rank = rank(classes);
+  record.missing = missing(record.rank, n);
+  record.missing_low = missing(rank(most), n);
+  record.missing_high = missing(rank(fewest), n);
+  add_backbone(record.backbone, packing, followed, classes);
+}
+
+void add_nothing(Exponents& record, std::string_view why) {
+  for (auto* value : {&record.Z_ff, &record.Z_ef, &record.Z_l, &record.C, &record.C_low, &record.C_high,
+                      &record.missing, &record.missing_low, &record.missing_high, &record.between, &record.backbone.C,
+                      &record.backbone.missing})
+    value->reason = why;
+  record.rank = no_rank(why);
+  record.backbone.self_stress.reason = why;
+}
+
+Exponents exponents_of(const Packing& packing, PackingEnergy& energy) {
+  Followed followed{classified_contacts(packing, energy), {}};
+  followed.exponents = contact_exponents(packing, followed.classified.contacts, energy);
+  Exponents record;
+  record.step = followed.exponents.step;
+  record.broken = followed.exponents.broken;
+  record.formed = followed.exponents.formed;
+  if (record.step == 0) {
+    add_nothing(record, "no equilibrium was found at a slightly lower density");
+    return record;
+  }
+  add_classes(record, packing, followed);
+  constexpr int digits = 4;
+  for (const auto& x : followed.exponents.x)
+    record.x.push_back(x ? std::optional(to_digits(*x, digits)) : std::nullopt);
+  return record;
+}
+
+Measurement measure_exponents(const JamResult& jam, const MeasureOptions& options) {
+  Measurement measurement;
+  PackingEnergy energy;
+  const auto nearest = nearest_state(jam);
+  for (std::size_t k = 0; k < jam.states.size(); ++k) {
+    State state;
+    if (options.exponents_of_all_states || k == nearest) state.exponents = exponents_of(jam.states[k], energy);
+    measurement.states.push_back(written(state));
+  }
+  return measurement;
+}
+
+}  // namespace
+
+const MeasureDefinition measures::exponents{.state = part_of<State>(), .measure = measure_exponents};
+
+}  // namespace isojam
