@@ -23,10 +23,20 @@ double mean_force(std::span<const Contact> contacts) {
   return sum / static_cast<double>(contacts.size());
 }
 
-/// φ − φ_J of an equilibrium, 6E/(dE/dφ) as in distance_to_jamming().
-double distance_of(const Packing& packing, const Evaluation& here) {
+/// d ln E/dφ of an equilibrium.
+double slope_of(const Packing& packing, const Evaluation& here) {
   const double density = packing.density();
-  return 6 * here.energy / packing.size() * density * density / here.pressure;
+  return packing.size() * here.pressure / (density * density * here.energy);
+}
+
+/// True if the packing loses no energy in the step, so that both states are on one solution branch. On a branch, the
+/// change of ln E is the integral of d ln E/dφ. With E ~ Δφ⁶, the trapezoidal rule has the error −s³ for the relative
+/// change s of Δφ; ten times as much is allowed. A rearrangement releases more, also if it changes no contact.
+bool is_reversible(const Packing& from, const Evaluation& before, const Packing& to, const Evaluation& after,
+                   double step) {
+  const double mean_slope = (slope_of(from, before) + slope_of(to, after)) / 2;
+  const double expected = mean_slope * (to.density() - from.density());
+  return std::abs(log_ratio(after.energy, before.energy) - expected) <= 10 * std::abs(step * step * step);
 }
 
 /// The result of the step from `before` to `after`. Both lists are sorted by canonical_key().
@@ -63,20 +73,18 @@ ContactExponents contact_exponents(const Packing& packing, std::span<const Conta
   best.x.resize(contacts.size());
   const Evaluation here = energy.evaluate(packing, Precision::double_double);
   if (!(here.pressure > 0)) return best;
-  const double distance = distance_of(packing, here);
-  double step = options.longest_step;
-  for (int attempt = 1; attempt <= options.most_attempts; ++attempt, step /= 2) {
-    best.attempts = attempt;
-    Packing next = packing;
-    const auto summary =
-        follow_equilibrium(next, packing.density() - step * distance, distance, energy, options.minimise);
-    if (!is_equilibrium(summary)) continue;
-    const auto after = energy.contacts(next);
-    if (after.empty()) continue;
-    best = compare(contacts, after);
-    best.step = step;
-    best.attempts = attempt;
-    if (best.broken == 0 && best.formed == 0) break;
+  const double distance = 6 / slope_of(packing, here);
+  double length = options.longest_step;
+  for (int k = 0; k < options.lengths; ++k, length /= 2) {
+    for (const double step : {-length, length}) {
+      Packing next = packing;
+      const double density = packing.density() + step * distance;
+      if (!is_equilibrium(follow_equilibrium(next, density, distance, energy, options.minimise))) continue;
+      if (!is_reversible(packing, here, next, energy.evaluate(next, Precision::double_double), step)) continue;
+      best = compare(contacts, energy.contacts(next));
+      best.step = step;
+      if (best.broken == 0 && best.formed == 0) return best;
+    }
   }
   return best;
 }

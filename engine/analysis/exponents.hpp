@@ -33,23 +33,27 @@ struct ContactExponents {
   /// The exponent x of each contact. nullopt for the contacts that break in the step, however short, and for all
   /// contacts if no step was possible.
   std::vector<std::optional<double>> x;
-  double step = 0;            ///< length of the step from which x was computed, as a fraction of Δφ; 0 if there is none
-  int broken = 0, formed = 0; ///< numbers of contacts that broke and formed in this step
-  int attempts = 0;           ///< number of steps that were made
+  /// Relative change of Δφ in the step from which x was computed: negative for a step of decompression, positive for a
+  /// step of compression, 0 if there is none.
+  double step = 0;
+  int broken = 0, formed = 0;  ///< numbers of contacts that broke and formed in this step
 };
 
 /// Options of contact_exponents().
 struct ExponentOptions {
-  double longest_step = 0.04;  ///< length of the first step, as a fraction of Δφ
-  int most_attempts = 5;       ///< largest number of steps; each is half as long as the one before
-  MinimiseOptions minimise;    ///< options of the minimisations
+  double longest_step = 0.04;  ///< length of the first steps, as a fraction of Δφ
+  int lengths = 6;             ///< largest number of lengths; each is half of the one before
+  /// Options of the minimisations. Few evaluations are allowed, because a step that needs more of them leads to another
+  /// solution branch, or fails after all.
+  MinimiseOptions minimise{.max_evaluations = 500};
 };
 
-/// Computes the exponents of the contacts of `packing`, which must be an equilibrium, from one step of a decompression
-/// at fixed cell shape. Steps of decreasing length are tried until one succeeds without a change of contacts, so that
-/// both states are on the same smooth part of a solution branch. If all steps change contacts, x comes from the
-/// shortest one. `contacts` are the contacts of the packing in double-double, as PackingEnergy::contacts() returns
-/// them. A step takes less time than one step of the decompression, because it is much shorter.
+/// Computes the exponents of the contacts of `packing`, which must be an equilibrium, from one small step at fixed cell
+/// shape. Steps of decreasing length are tried, each as a decompression and as a compression, until one succeeds without
+/// a change of contacts. Steps in which the packing loses energy are not used, because they contain a rearrangement. If
+/// all other steps change contacts, x comes from the last of them. `contacts` are the contacts of the packing in
+/// double-double, as PackingEnergy::contacts() returns them. A step takes less time than a step of the decompression,
+/// because it is much shorter.
 ContactExponents contact_exponents(const Packing& packing, std::span<const Contact> contacts, PackingEnergy& energy,
                                    const ExponentOptions& options = {});
 

@@ -1,6 +1,7 @@
 #include "engine/rigidity/rigidity_matrix.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -116,6 +117,16 @@ RigidityMatrix class_constraints(const Packing& packing, std::span<const Contact
     }
   }
   return rows.matrix();
+}
+
+std::vector<int> underconstrained(const RigidityMatrix& matrix, int particles) {
+  std::vector<int> found;
+  for (int i = 0; i < particles; ++i) {
+    const Eigen::SparseMatrix<double> own = matrix.rows.middleCols(6 * i, 6);
+    const Matrix6d products = Eigen::MatrixXd(own.transpose() * own);
+    if (products.fullPivLu().rank() < 6) found.push_back(i);
+  }
+  return found;
 }
 
 }  // namespace isojam

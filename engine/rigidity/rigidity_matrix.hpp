@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <span>
+#include <vector>
 
 #include "engine/analysis/contacts.hpp"
 #include "engine/packing/energy.hpp"
@@ -36,5 +37,9 @@ RigidityMatrix normal_constraints(const Packing& packing, std::span<const Contac
 /// if an alignment does not contain the faces or the edge that the class of its contact requires.
 RigidityMatrix class_constraints(const Packing& packing, std::span<const Contact> contacts,
                                  std::span<const Alignment> alignments, std::span<const ContactClass> classes);
+
+/// Indices of the underconstrained particles, ascending: a particle is underconstrained if its constraints do not
+/// suppress all of its six motions even while all other particles are fixed. `particles` is N.
+std::vector<int> underconstrained(const RigidityMatrix& matrix, int particles);
 
 }  // namespace isojam

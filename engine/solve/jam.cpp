@@ -21,6 +21,10 @@ constexpr double compression_residual = 1e-3, compression_unjammed_energy = 1e-1
 /// by itself.
 constexpr double followed_within = 1;
 
+/// Nearer to jamming than this, steps that are too long end with StopReason::budget, and a longer one would fail again.
+/// A failed step then does not mean that the solution branch has ended, and the steps after it are no longer extended.
+constexpr double near_jamming = 1e-3;
+
 /// Residual of the first state of a decompression below which Newton's method finds the equilibrium.
 constexpr double newton_below = 0.01;
 
@@ -215,7 +219,8 @@ class StrainStep {
     if (!first && !ends_branch && last_state().energy_per_particle > 0)
       result_.path.back().rearrangement = rearrangement(progress_.packing, last_state(), next, step);
     if (ends_branch) return lose_branch(std::move(next));
-    if (!first) progress_.step_fraction = std::min(options_.decompression.step_fraction, 1.5 * progress_.step_fraction);
+    if (!first && distance() > near_jamming)
+      progress_.step_fraction = std::min(options_.decompression.step_fraction, 1.5 * progress_.step_fraction);
     // A packing that becomes denser as its pressure decreases has found a denser branch. Energies of the earlier branch
     // contain no information about φ_J of the new one.
     if (!first && options_.decompression.control == Control::pressure && next.density() >= progress_.packing.density())
@@ -280,13 +285,14 @@ class StrainStep {
     return append(next, follow_equilibrium(next, density, distance(), energy_, minimiser(), stop_));
   }
 
-  /// True if the last step unjammed the packing. Also true if the last two steps spent their budget because the packing
-  /// slides too far; the second of them was half as long.
+  /// True if the last step unjammed the packing. Also true, unless jamming is near, if the last two steps spent their
+  /// budget because the packing slides too far; the second of them was half as long.
   bool lost_equilibrium() const {
     const auto ended = [&](std::size_t back, StopReason reason) {
       return result_.path.size() >= back && result_.path[result_.path.size() - back].summary.reason == reason;
     };
-    return ended(1, StopReason::unjammed) || (ended(1, StopReason::budget) && ended(2, StopReason::budget));
+    return ended(1, StopReason::unjammed) ||
+           (distance() > near_jamming && ended(1, StopReason::budget) && ended(2, StopReason::budget));
   }
 
   /// Ends a solution branch: the packing is unjammed at a density where it was expected to be jammed, or it is far from

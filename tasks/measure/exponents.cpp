@@ -1,6 +1,7 @@
 #include "engine/analysis/exponents.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "engine/vibration/backbone.hpp"
 #include "tasks/measure/rank_parts.hpp"
@@ -14,9 +15,9 @@ namespace {
 constexpr QuantityGroup group{
     "constraints", "Contacts and constraints of the state nearest jamming, with classes from the exponents of contacts."};
 
-/// C and the missing rank without near-rattlers.
-struct BackboneCount {
-  int removed = 0;
+/// The particles that remain if underconstrained particles are removed, repeatedly, until there are none.
+struct Supported {
+  Reasoned<int> removed;
   Reasoned<> C, missing;
   Reasoned<int> self_stress;
 };
@@ -24,21 +25,24 @@ struct BackboneCount {
 struct Exponents {
   Reasoned<> Z_ff, Z_ef, Z_l, C, C_low, C_high, missing, missing_low, missing_high, between;
   Rank rank;
-  BackboneCount backbone;
+  Supported supported;
   double step = 0;
   int broken = 0, formed = 0;
   std::vector<std::optional<double>> x;
 };
 
-void describe(Fields& field, BackboneCount& backbone) {
-  field("removed", backbone.removed, "Number of near-rattlers that were removed.");
-  field("C", backbone.C, "Constraint number of the remaining particles.")
+void describe(Fields& field, Supported& supported) {
+  field("removed", supported.removed, "Number of underconstrained particles that were removed.")
+      .column({"underconstrained", group, "n_u",
+               "Number of particles that are underconstrained: their own constraints do not suppress their six motions "
+               "even while all other particles are fixed. Those that become so by the removal of others are included."});
+  field("C", supported.C, "Constraint number of the remaining particles.")
       .unit("per particle")
-      .column({"C_x_backbone", group, "C^{bb}", "Constraint number C without near-rattlers."});
-  field("missing", backbone.missing, "Missing rank per remaining particle.")
+      .column({"C_supported", group, "C^{su}", "Constraint number C without underconstrained particles."});
+  field("missing", supported.missing, "Missing constraints of the remaining particles.")
       .unit("per particle")
-      .column({"m_backbone", group, "m^{bb}", "Missing constraints m without near-rattlers."});
-  field("self_stress", backbone.self_stress, "Number of states of self-stress of the remaining particles.");
+      .column({"m_supported", group, "m^{su}", "Missing constraints m without underconstrained particles."});
+  field("self_stress", supported.self_stress, "Number of states of self-stress of the remaining particles.");
 }
 
 void describe_classes(Fields& field, Exponents& exponents) {
@@ -73,11 +77,12 @@ void describe(Fields& field, Exponents& exponents) {
       "rank", [&, condition](Fields& inner) { describe_rank(inner, exponents.rank, "x", "x", condition); },
       "Rigidity matrix in which a face-face contact has three constraints, an edge-face contact two and a lower-order "
       "contact one.");
-  field("backbone", exponents.backbone,
-        "The same without near-rattlers. Each contact keeps the class that it has in the whole packing.");
+  field("supported", exponents.supported,
+        "The same without underconstrained particles, which are removed repeatedly until there are none. Each contact "
+        "keeps the class that it has in the whole packing.");
   field("step", exponents.step,
-        "Length of the step of decompression from which the exponents were computed, as a fraction of Δφ; 0 if no step "
-        "was possible.");
+        "Relative change of Δφ in the step from which the exponents were computed; 0 if no step was possible.")
+      .range({-1, 1});
   field("broken", exponents.broken, "Number of contacts that break in this step. They have no exponent.");
   field("formed", exponents.formed, "Number of contacts that form in this step.");
   field("x", exponents.x,
@@ -112,26 +117,33 @@ struct Followed {
   }
 };
 
-void add_backbone(BackboneCount& record, const Packing& packing, const Followed& followed,
-                  std::span<const ContactClass> all_classes) {
-  const auto backbone = backbone_of(packing, {.lowest = 1, .highest = 1}, state_precision);
-  record.removed = static_cast<int>(backbone.removed.size());
-  if (backbone.kept.empty()) {
-    record.C.reason = record.missing.reason = record.self_stress.reason = "no particle is left";
-    return;
+/// Removes underconstrained particles until none is left.
+void add_supported(Supported& record, const Packing& packing, const Followed& followed,
+                   std::span<const ContactClass> all_classes) {
+  std::vector<int> kept(static_cast<std::size_t>(packing.size()));
+  std::iota(kept.begin(), kept.end(), 0);
+  while (!kept.empty()) {
+    const Packing part = part_of(packing, kept);
+    const auto within = contacts_within(followed.classified.contacts, kept, packing.size());
+    std::vector<Alignment> alignments;
+    std::vector<ContactClass> classes;
+    for (const auto place : within.places) {
+      alignments.push_back(followed.classified.alignments[place]);
+      classes.push_back(all_classes[place]);
+    }
+    const auto matrix = class_constraints(part, within.contacts, alignments, classes);
+    const auto loose = underconstrained(matrix, part.size());
+    if (loose.empty()) {
+      const auto rank = rank_of(matrix);
+      record.C.value = contact_numbers(part.size(), classes).C;
+      record.missing = missing(rank, part.size());
+      record.self_stress = rank.self_stress;
+      break;
+    }
+    for (auto i = loose.rbegin(); i != loose.rend(); ++i) kept.erase(kept.begin() + *i);
   }
-  const auto within = contacts_within(followed.classified.contacts, backbone.kept, packing.size());
-  std::vector<Alignment> alignments;
-  std::vector<ContactClass> classes;
-  for (const auto place : within.places) {
-    alignments.push_back(followed.classified.alignments[place]);
-    classes.push_back(all_classes[place]);
-  }
-  const int n = backbone.packing.size();
-  const auto rank = rank_of(class_constraints(backbone.packing, within.contacts, alignments, classes));
-  record.C.value = contact_numbers(n, classes).C;
-  record.missing = missing(rank, n);
-  record.self_stress = rank.self_stress;
+  record.removed.value = packing.size() - static_cast<int>(kept.size());
+  if (kept.empty()) record.C.reason = record.missing.reason = record.self_stress.reason = "no particle is left";
 }
 
 void add_classes(Exponents& record, const Packing& packing, const Followed& followed) {
@@ -157,16 +169,16 @@ void add_classes(Exponents& record, const Packing& packing, const Followed& foll
   record.missing = missing(record.rank, n);
   record.missing_low = missing(rank(most), n);
   record.missing_high = missing(rank(fewest), n);
-  add_backbone(record.backbone, packing, followed, classes);
+  add_supported(record.supported, packing, followed, classes);
 }
 
 void add_nothing(Exponents& record, std::string_view why) {
   for (auto* value : {&record.Z_ff, &record.Z_ef, &record.Z_l, &record.C, &record.C_low, &record.C_high,
-                      &record.missing, &record.missing_low, &record.missing_high, &record.between, &record.backbone.C,
-                      &record.backbone.missing})
+                      &record.missing, &record.missing_low, &record.missing_high, &record.between, &record.supported.C,
+                      &record.supported.missing})
     value->reason = why;
   record.rank = no_rank(why);
-  record.backbone.self_stress.reason = why;
+  record.supported.self_stress.reason = record.supported.removed.reason = why;
 }
 
 Exponents exponents_of(const Packing& packing, PackingEnergy& energy) {
@@ -177,7 +189,7 @@ Exponents exponents_of(const Packing& packing, PackingEnergy& energy) {
   record.broken = followed.exponents.broken;
   record.formed = followed.exponents.formed;
   if (record.step == 0) {
-    add_nothing(record, "no equilibrium was found at a slightly lower density");
+    add_nothing(record, "no equilibrium was found at a slightly different density");
     return record;
   }
   add_classes(record, packing, followed);

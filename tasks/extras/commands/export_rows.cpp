@@ -36,7 +36,7 @@ RowFormat format_of(const std::string& output) {
 /// Appends the contacts of a replicate, one state at a time because a decompression can have millions of contacts.
 void append_contacts(const ExportArguments& arguments, const RecordedReplicate& held, Output& output) {
   for (const auto& state : stored_states(arguments.directory, held, arguments.path)) {
-    output.append(contact_lines(format_of(arguments.output), {held.name, state.index, state.delta_phi}, state.packing));
+    output.append(contact_lines(format_of(arguments.output), held.name, state));
   }
 }
 

@@ -10,10 +10,10 @@ void append(std::vector<Json>& row, const Vector& v) {
 
 Json number_or_null(const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); }
 
-std::vector<Json> row_of(const StateName& name, const Packing& packing, const NetworkContact& contact) {
+std::vector<Json> row_of(const std::string& replicate, const StoredState& state, const NetworkContact& contact) {
   const auto& [pair, alignment, contact_class, force] = contact;
-  const auto solid = [&](int particle) { return packing.solids.unit(static_cast<std::size_t>(particle)).name(); };
-  std::vector<Json> row{name.replicate, name.state, number_or_null(name.delta_phi), pair.a, pair.b};
+  const auto solid = [&](int particle) { return state.packing.solids.unit(static_cast<std::size_t>(particle)).name(); };
+  std::vector<Json> row{replicate, state.index, number_or_null(state.delta_phi), pair.a, pair.b};
   append(row, pair.shift);
   row.insert(row.end(), {force.volume, force.area});
   for (const auto* v : {&force.force_a, &force.attack, &force.normal, &force.torque_a, &force.torque_b})
@@ -47,7 +47,8 @@ const Columns& contact_columns() {
       "replicate",  "state",    "delta_phi", "a",          "b",          "image_x",    "image_y",    "image_z",
       "volume",     "area",     "force_x",   "force_y",    "force_z",    "attack_x",   "attack_y",   "attack_z",
       "normal_x",   "normal_y", "normal_z",  "torque_a_x", "torque_a_y", "torque_a_z", "torque_b_x", "torque_b_y",
-      "torque_b_z", "class",    "kind",      "theta_ef",   "theta_ff",   "depth",      "solid_a",    "solid_b"};
+      "torque_b_z", "class",    "kind",      "theta_ef",   "theta_ff",   "depth",      "solid_a",    "solid_b",
+      "x"};
   return columns;
 }
 
@@ -56,10 +57,14 @@ const Columns& contact_texts() {
   return texts;
 }
 
-std::string contact_lines(RowFormat format, const StateName& name, const Packing& packing) {
+std::string contact_lines(RowFormat format, const std::string& replicate, const StoredState& state) {
   std::string text;
-  for (const auto& contact : contact_network(packing))
-    text += row_line(format, contact_columns(), row_of(name, packing, contact));
+  const auto network = contact_network(state.packing);
+  for (std::size_t k = 0; k < network.size(); ++k) {
+    auto row = row_of(replicate, state, network[k]);
+    row.push_back(number_or_null(k < state.exponents.size() ? state.exponents[k] : std::nullopt));
+    text += row_line(format, contact_columns(), row);
+  }
   return text;
 }
 

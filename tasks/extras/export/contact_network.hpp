@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/analysis/contact_force.hpp"
+#include "tasks/extras/export/stored_states.hpp"
 #include "tasks/io/rows.hpp"
 #include "tasks/measure/shared_parts.hpp"
 
@@ -22,21 +23,14 @@ struct NetworkContact {
 std::vector<NetworkContact> contact_network(const Packing& packing);
 std::vector<NetworkContact> contact_network(const Packing& packing, const ClassifiedContacts& classified);
 
-/// Identifies a state in the rows of a table of contacts.
-struct StateName {
-  std::string replicate;
-  std::size_t state = 0;  ///< index of the state in the list `states` of the record
-  std::optional<double> delta_phi;
-};
-
 /// Columns of a table of contacts: replicate, state, Δφ, a, b, image, V, |S|, force on a, point of application, normal
 /// (points out of a), torques on a and b about their centres, class, kind, θ_ef and θ_ff (radians), depth, solids of a
-/// and b. `image` has three integers n_i: the centre of the touching image of b is x_b + Σ n_i·(lattice vector i). The
+/// and b, and the exponent x, which is empty unless the record has the measure `exponents` of the state. `image` has three integers n_i: the centre of the touching image of b is x_b + Σ n_i·(lattice vector i). The
 /// class depends on the fitted cut-offs, and the kind on the shape of the intersection, see ContactKind.
 const Columns& contact_columns();
 /// The columns with texts.
 const Columns& contact_texts();
 /// The rows of all contacts of one state.
-std::string contact_lines(RowFormat format, const StateName& name, const Packing& packing);
+std::string contact_lines(RowFormat format, const std::string& replicate, const StoredState& state);
 
 }  // namespace isojam

@@ -1,5 +1,7 @@
 #include "tasks/extras/export/stored_states.hpp"
 
+#include <fmt/format.h>
+
 #include <system_error>
 
 #include "tasks/io/input_error.hpp"
@@ -21,6 +23,15 @@ std::optional<double> distance_of(const JsonPlace& state) {
   return place.number({-1, 1});
 }
 
+/// The exponents of a state that the record has under the measure `exponents`.
+std::vector<std::optional<double>> exponents_of(const RecordedReplicate& held, std::size_t state) {
+  std::vector<std::optional<double>> list;
+  const Json::json_pointer pointer(fmt::format("/states/{}/exponents/x", state));
+  if (!held.record.contains(pointer)) return list;
+  for (const Json& x : held.record.at(pointer)) list.push_back(x.is_null() ? std::nullopt : std::optional(x.get<double>()));
+  return list;
+}
+
 std::vector<StoredState> states_of_path(const fs::path& directory, const RecordedReplicate& held) {
   const auto file = file_of(directory, "paths", held.name);
   std::error_code error;
@@ -33,7 +44,7 @@ std::vector<StoredState> states_of_path(const fs::path& directory, const Recorde
   std::vector<StoredState> list;
   for (std::size_t k = 0; k < count; ++k) {
     const auto state = states.at(k);
-    list.push_back({k, distance_of(state), read_packing(state)});
+    list.push_back({k, distance_of(state), read_packing(state), exponents_of(held, k)});
     const auto &first = list.front().packing, &last = list.back().packing;
     if (!(last.solids == first.solids) || last.size() != first.size())
       state.refuse("the state has other particles than the first one");
@@ -49,7 +60,8 @@ std::vector<StoredState> stored_states(const fs::path& directory, const Recorded
   const JsonPlace packing(json, file_of(directory, "packings", held.name));
   std::vector<StoredState> one;
   const auto nearest = static_cast<std::size_t>(*held.document.nearest.value);
-  one.push_back({nearest, held.document.states[nearest].delta_phi.value, read_packing(packing)});
+  one.push_back({nearest, held.document.states[nearest].delta_phi.value, read_packing(packing),
+                 exponents_of(held, nearest)});
   return one;
 }
 

@@ -14,6 +14,8 @@ struct StoredState {
   std::size_t index = 0;            ///< index of the state in the list `states` of the record
   std::optional<double> delta_phi;  ///< φ − φ_J; nullopt if the record has no φ_J
   Packing packing;
+  /// exponents of its contacts (analysis/exponents.hpp); empty if the record does not have them
+  std::vector<std::optional<double>> exponents;
 };
 
 /// Reads the nearest state of a replicate. If `path` is true, reads all states of its path, in order. The replicate
