@@ -189,6 +189,8 @@ void look_at_effects(const Manifest& manifest, Warnings& warnings) {
   const MeasureOptions usual;
   if (written(manifest.measuring.shear) != written(usual.shear) && !requests(manifest, {Measure::shear}))
     warnings.add_at("/shear", "has no effect without the measure; add \"shear\" to /measure");
+  if (manifest.measuring.exponents_of_all_states && !requests(manifest, {Measure::exponents}))
+    warnings.add_at("/exponents_of_all_states", "has no effect without the measure; add \"exponents\" to /measure");
   if (manifest.measuring.modes != usual.modes &&
       !requests(manifest, {Measure::modes, Measure::backbone, Measure::prestress}))
     warnings.add_at("/modes", "has no effect without a measure of modes; add \"modes\" to /measure");

@@ -150,8 +150,8 @@ class Report(ChartTests, ManyTests, MixtureTests, Case):
 
     def test_what_was_not_measured_is_left_out_with_its_reason(self):
         self.open(self.pages.report(self.swept()))
-        self.assertEqual(self.charts(), [name for name in CHARTS if name not in ("forces", "pairs", "spectrum", "scaling",
-                                                                            "moduli", "shear")])
+        self.assertEqual(self.charts(), [name for name in CHARTS if name not in ("forces", "pairs", "exponents", "spectrum",
+                                                                            "scaling", "moduli", "shear")])
         self.assertIn('isojam measure DIR --add modes', self.find(".absent").text)
         nothing = self.pages.run("bare", measure=[], replicates=1)
         self.open(self.pages.report(nothing))

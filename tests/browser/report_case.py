@@ -12,10 +12,10 @@ from selenium.webdriver.common.by import By
 
 EXECUTABLE = pathlib.Path(sys.argv.pop(1)).resolve()
 CHARTS = ["density", "topology", "edge-face", "face-face", "edge-face-histogram", "face-face-histogram", "forces", "pairs",
-          "extrapolation", "spectrum", "scaling", "moduli", "shear", "stops", "evaluations", "time"]
+          "exponents", "extrapolation", "spectrum", "scaling", "moduli", "shear", "stops", "evaluations", "time"]
 # Charts of all solids together, and the number of charts of single solids.
 TOGETHER = {"topology": 3, "edge-face": 1, "face-face": 1, "extrapolation": 1, "spectrum": 1, "scaling": 1, "moduli": 2,
-            "shear": 1, "edge-face-histogram": 1, "face-face-histogram": 1, "forces": 1, "pairs": 1}
+            "shear": 1, "edge-face-histogram": 1, "face-face-histogram": 1, "forces": 1, "pairs": 1, "exponents": 1}
 
 # Pixels of the view that are not background, and a hash of all.
 DRAWN = """

@@ -10,7 +10,8 @@ import re
 import shutil
 import subprocess
 
-MEASURES = ["contacts", "order", "clusters", "modes", "moduli", "strict", "shear", "rigidity", "backbone", "difference_modes", "gaps"]
+MEASURES = ["contacts", "order", "clusters", "modes", "moduli", "strict", "shear", "rigidity", "exponents", "backbone", "difference_modes",
+            "gaps"]
 HOSTILE = "<script>alert(1)</script>"
 
 

@@ -125,11 +125,37 @@ Json pairs_of(std::span<const Json> states) {
   return {{"curves", {{"all", std::move(curve)}}}, {"states", total.states}};
 }
 
+/// Density of the exponents x of the contacts (analysis/exponents.hpp), in bins of 0.1 that are centred on the classes.
+Json exponents_of(std::span<const Json> states) {
+  constexpr int per_unit = 10, from = -8 * per_unit, bins = 11 * per_unit;
+  Numbers counts(bins, 0);
+  long contacts = 0;
+  int measured = 0;
+  for (const Json& state : states) {
+    const Json::json_pointer place("/exponents/x");
+    if (!state.contains(place) || state.at(place).empty()) continue;
+    ++measured;
+    for (const Json& x : state.at(place)) {
+      ++contacts;
+      if (!x.is_number()) continue;
+      const auto bin = std::lround(x.get<double>() * per_unit) - from;
+      if (bin >= 0 && bin < bins) ++counts[static_cast<std::size_t>(bin)];
+    }
+  }
+  if (measured == 0) return nullptr;
+  Json curve = Json::array();
+  for (int k = 0; k < bins; ++k)
+    curve.push_back({to_digits(static_cast<double>(k + from) / per_unit, 3),
+                     to_digits(counts[static_cast<std::size_t>(k)] / static_cast<double>(contacts) * per_unit, 5)});
+  return {{"curves", {{"all", std::move(curve)}}}, {"states", measured}};
+}
+
 }  // namespace
 
 Json pooled_distributions(std::span<const Json> states) {
   return {{"forces", forces_of(states)},
           {"pairs", pairs_of(states)},
+          {"exponents", exponents_of(states)},
           {"face_face", angles_of(states, [](const AngleHistogram& all) { return all.face_face; })},
           {"edge_face", angles_of(states, [](const AngleHistogram& all) { return all.edge_face_of_others(0); })}};
 }

@@ -177,5 +177,42 @@ TEST(HoldingMeasure, GapsStatesWhyThereIsNoValue) {
   EXPECT_FALSE(gaps.at("within_distance_reason").get<std::string>().empty());
 }
 
+/// The numbers of the record follow from its list of exponents, and the constraints satisfy Calladine's relation.
+TEST(HoldingMeasure, ExponentsCountClasses) {
+  MeasureOptions options;
+  options.exponents_of_all_states = true;
+  const auto& jam = octahedra();
+  const auto all = measure(Measure::exponents, jam, options).states, nearest = measure(Measure::exponents, jam).states;
+  const std::size_t last = *nearest_state(jam);
+  EXPECT_EQ(all[last], nearest[last]);
+  for (std::size_t k = 0; k < jam.states.size(); ++k) {
+    EXPECT_EQ(nearest[k].contains("exponents"), k == last);
+    const Json& state = all[k].at("exponents");
+    const int n = jam.states[k].size();
+    const auto contacts = PackingEnergy().contacts(jam.states[k]);
+    ASSERT_EQ(state.at("x").size(), contacts.size());
+    double faces = 0, edges = 0, points = 0, low = 0, high = 0;
+    for (const Json& entry : state.at("x")) {
+      const double x = entry.is_null() ? 1 : entry.get<double>();
+      (x < -2.5 ? faces : x < .5 ? edges : points) += 2. / n;
+      low += 2. / n * (x < -4 ? 3 : x < .3 ? 2 : 1);
+      high += 2. / n * (x < -1 ? 3 : x < .7 ? 2 : 1);
+    }
+    const double C = state.at("C"), m = state.at("missing"), s = state.at("rank").at("self_stress");
+    std::printf("state %zu: C %.3f from %.3f to %.3f, m %.3f, S %.0f, step %g\n", k, C, low, high, m, s,
+                state.at("step").get<double>());
+    EXPECT_NEAR(state.at("Z_ff"), faces, 1e-9);
+    EXPECT_NEAR(state.at("Z_ef"), edges, 1e-9);
+    EXPECT_NEAR(state.at("Z_l"), points, 1e-9);
+    EXPECT_NEAR(state.at("C_low"), low, 1e-9);
+    EXPECT_NEAR(state.at("C_high"), high, 1e-9);
+    EXPECT_NEAR(C, 12 - 6. / n - 2 * m + 2 * s / n, 1e-9);
+    EXPECT_LE(state.at("missing_low"), m);
+    EXPECT_GE(state.at("missing_high"), m);
+    EXPECT_LE(state.at("supported").at("missing").get<double>() * (n - state.at("supported").at("removed").get<int>()),
+              m * n + 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace isojam

@@ -10,6 +10,7 @@ const allFigures = (data, choices) => [
   kindsFigure(data),
   forceFigure(data, choices),
   pairFigure(data, choices),
+  exponentFigure(data, choices),
   extrapolationFigure(data, choices),
   spectrumFigure(data, choices),
   scalingFigure(data, choices),

@@ -78,6 +78,14 @@ const pairFigure = (data, choices) => distributionFigure(data, choices, {
     'The unit of $r$ is the cube root of the particle volume.',
 });
 
+const exponentFigure = (data, choices) => distributionFigure(data, choices, {
+  id: 'exponents', title: 'Exponents of contacts', part: 'exponents', type: 'linear', yType: 'log',
+  absent: 'no exponents were measured; add "exponents" to "measure" in the manifest.',
+  xTitle: '$x$', yTitle: '$P(x)$',
+  note: 'Probability density of the exponent $x$ of a contact, which is −5 for a face on a face, 0 for an edge in a face, ' +
+    'and 1 for a vertex in a face and for crossed edges. The classes are divided at −2.5 and 0.5.',
+});
+
 const angleHistogram = (data, choices, kind, {id, title, symbol}) => distributionFigure(data, choices, {
   id, title, part: kind, type: 'log', yType: 'linear', xTitle: `$${symbol}$, degrees`, yTitle: 'probability per decade',
   absent: 'no histograms of angles were measured; add "contacts" to "measure" in the manifest.',
