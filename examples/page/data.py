@@ -162,15 +162,13 @@ class Data:
                        if (entry["solid"], entry["particles"]) == (solid, particles) and entry["delta_phi"]})
 
     def constraints(self, solid, particles, how, distance=None):
-        """C by "trough", "fit" or "gap". The systematic error is half the difference of C between both edges of the
+        """C by "trough" or "fit". The systematic error is half the difference of C between both edges of the
         trough; for fits, it is half the range from half to twice the cut-offs."""
         if how == "trough":
             found = self.trough(solid, particles, distance)
             if not found or not found.get("C"):
                 return None
             return {**found["C"], "systematic": (found["C_high"]["mean"] - found["C_low"]["mean"]) / 2}
-        if how == "gap":
-            return self.at(solid, particles, "C_gap", distance)
         found = self.at(solid, particles, "C", distance)
         half, double = (self.at(solid, particles, f"C_{of}", distance) for of in ("half", "double"))
         if found and half and double:

@@ -17,12 +17,12 @@ from pathlib import Path
 import numpy
 
 from data import EMERGENCE, LARGE, NEGATIVE, SOLIDS_64
-from records import bin_of, cells_of, constraints_with, found, nearest_of, records_of, write
+from records import bin_of, cells_of, found, nearest_of, records_of, write
 
 # Column of a state: where it is in the record.
 COLUMNS = {
     "phi": "density", "E": "energy_per_particle", "residual": "residual", "descents": "descents",
-    **{name: f"contacts/{name}" for name in ("Z", "Z_ff", "Z_ef", "Z_l", "C", "Z_ff_gap")},
+    **{name: f"contacts/{name}" for name in ("Z", "Z_ff", "Z_ef", "Z_l", "C")},
     **{f"{name}_fixed": f"contacts/fixed_cutoffs/{name}" for name in ("Z_ff", "Z_ef", "Z_l", "C")},
     **{f"{name}_trough": f"contacts/trough/{name}" for name in ("Z_ff", "Z_ef", "C")},
     "Q6": "order/Q6", "S": "clusters/S", "percolates": "clusters/percolates", "spans": "clusters/spans",
@@ -55,14 +55,6 @@ EMERGENCE_AT = (0.32, 0.24, 0.16, 0.12, 0.08, 0.04)  # Δφ
 NEAR = 1.25  # factor between two values of Δφ that count as the same
 
 
-def constraints_by_gap(state, particles):
-    """C with the cut-offs in the gaps of the angles; None without both gaps."""
-    gaps = [found(state, f"contacts/{kind}_gap") for kind in ("face_face", "edge_face")]
-    if any(found(gap, "verdict") != "separated" for gap in gaps):
-        return None
-    return constraints_with(state, particles, *(gap["cutoff"] for gap in gaps))
-
-
 def columns_of(states, particles):
     """Columns that at least one state has."""
     columns = {name: [found(state, place) for state in states] for name, place in COLUMNS.items()}
@@ -71,7 +63,6 @@ def columns_of(states, particles):
                          for s in states]
     for name in ("half", "double"):
         columns[f"C_{name}"] = [None if n is None else 2 * n / particles for n in columns.pop(f"constraints_{name}")]
-    columns["C_gap"] = [constraints_by_gap(state, particles) for state in states]
     for i, state in enumerate(states):
         if (found(state, "backbone/residual") or 0) > BALANCED:
             for name in ("missing", "constraints", "rank"):

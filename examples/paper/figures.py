@@ -57,9 +57,6 @@ def constraints_panel(axes, data, solid, particles):
                       color="0.6", alpha=0.3, linewidth=0, label="fit, cut-offs × ½ … × 2")
     axes.errorbar(x, y, error, fmt="o", color="0.35", markersize=3, markerfacecolor="white", elinewidth=0.8,
                   label="fit")
-    x, y, error = mean_path(data, solid, particles, "C_gap", grid=grid)
-    if x:
-        axes.errorbar(x, y, error, fmt="x", color="black", markersize=4, elinewidth=0.8, label="gap")
     points = [(data.nearest_distance(solid, particles)["mean"], data.constraints(solid, particles, "trough"))]
     points += [(d, data.constraints(solid, particles, "trough", d)) for d in data.trough_distances(solid, particles)]
     points = sorted((d, e) for d, e in points if e)

@@ -53,12 +53,6 @@ def drawn(data, how, solid):
     return values.constraints(data, how, solid, drawn_size(data))
 
 
-def below_trough(data):
-    """C by trough minus C by gap, nearest jamming, of all solids and sizes with both."""
-    return [trough["mean"] - gap["mean"] for s in SOLIDS for n in SIZES
-            if (gap := data.constraints(s, n, "gap")) and (trough := data.constraints(s, n, "trough"))]
-
-
 def region_two(data):
     """Relative differences between the densities of the halves of region 2, with their errors: (difference, error)."""
     return [(abs(ratio["mean"] - 1), ratio["half_width"]) for _, _, ratio in region_two_ratios(data)]
@@ -95,7 +89,6 @@ def offsets_of(data, solid):
 
 value_of = values.value_of({
     **values.VALUES, "Z_J": at_jamming, "offsets": offsets, "largest_offset": largest_offset, "cluster": cluster,
-    "gap": lambda data, which: number(END[which](below_trough(data)), 1),
     "region_two": lambda data, which: number(100 * END[which](off for off, _ in region_two(data)), 0),
     "minima_share": share_of_minima,
     "farthest": lambda data: significant(values.farthest(data, SIZES), 2),
@@ -174,9 +167,6 @@ CLAIMS = {
         data.phi_j(s, n)["mean"] - data.phi_j(s, n)["half_width"] > sum(DICE_DENSITY[s]) for s in SOLIDS[1:] for n in SIZES),
     "No increase of φ_J by more than 0.005 is significant.": lambda data: max(
         mean for s in SOLIDS for mean in significant_shifts(data, s)) < 0.005,
-    "Cut-offs in intervals without angles exist only in some packings. Nearest jamming, their C is": lambda data: all(
-        found["n"] < len(data.kept(s, n)) and found["mean"] < data.constraints(s, n, "trough")["mean"]
-        for s in SOLIDS for n in SIZES if (found := data.constraints(s, n, "gap"))),
     "In icosahedra and dodecahedra, these are fewer than the particles of a mean cluster": lambda data: all(
         data.nearest(s, n, "participating")["mean"] + data.nearest(s, n, "participating")["half_width"]
         < data.nearest(s, n, "S")["mean"] - data.nearest(s, n, "S")["half_width"] for s in SOLIDS[2:] for n in SIZES),

@@ -114,7 +114,7 @@ def constraints(data):
     rows = []
     for solid in SOLIDS:
         for n in data.sizes(solid):
-            for how in ("trough", "fit", "gap"):
+            for how in ("trough", "fit"):
                 cells = [data.constraints(solid, n, how, d) for d in DISTANCES]
                 if any(cells):
                     rows.append([f"{solid} {n}", how, *map(counted, cells)])
@@ -320,9 +320,8 @@ TABLES = (
     ("Shift of the jamming density by the compression protocol", """Paired differences of φ_J in units of 10⁻⁴ (N = 100,
      same initial configurations): the protocol of the row minus ours. Ours compares the energy after relaxation with the
      target, and uses a strain step of 0.02 and 500 evaluations (tetrahedra: 2000). A dash means fewer than three pairs.""", protocols),
-    ("C by three classifications", """The second error of C by trough is half the difference between C at both edges
-     of the trough. That of C by fit is half its range from half to twice the fitted cut-offs. C by gap exists only
-     if both angles have a gap.""",
+    ("C by two classifications", """The second error of C by trough is half the difference between C at both edges
+     of the trough. That of C by fit is half its range from half to twice the fitted cut-offs.""",
      constraints),
     ("Table II of the paper: critical angles", "Our values are computed from closed forms.", angles),
     ("Table III of the paper: tetrahedra, N = 100, Δφ = 0.04", """The paper's value is in our confidence interval if

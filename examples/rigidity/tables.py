@@ -115,7 +115,7 @@ def limits(data):
 
 
 def limits_without_fit(data):
-    return limits_of(data, {"C_trough": "C by trough", "missing_trough": "m by trough", "C_gap": "C by gap"})
+    return limits_of(data, {"C_trough": "C by trough", "missing_trough": "m by trough"})
 
 
 def near_rattlers(data):
@@ -198,8 +198,8 @@ TABLES = (
      first error is the 95 % interval by bootstrap. Its second error is half the range over the three forms and the
      windows Δφ < {', '.join(str(high) for _, high in WINDOWS)}. A dash means that the data do not determine x: the
      best x is at an end of its grid (0.2 … 2), or all values are equal. The limit N → ∞ is linear in 1/N.""", limits),
-    ("Limits at jamming by trough and by gap", """The same for classes by the troughs or the gaps of single states. States
-     without a trough or a gap are left out.""", limits_without_fit),
+    ("Limits at jamming by trough", """The same for classes by the troughs of single states. States without a trough are
+     left out.""", limits_without_fit),
     ("Without near-rattlers", """Near-rattlers are removed until none is left. n is the number of particles that remain.
      Ranks of a backbone are used only if the removed particles carried no force. Nearest jamming, softest modes that
      cannot be distinguished from zero make particles look like near-rattlers.""", near_rattlers),
