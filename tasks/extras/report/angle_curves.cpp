@@ -10,7 +10,6 @@
 #include "engine/analysis/alignment/critical_angles.hpp"
 #include "engine/analysis/alignment/empirical_cdf.hpp"
 #include "engine/analysis/alignment/random_alignment.hpp"
-#include "engine/analysis/alignment/random_contact.hpp"
 #include "engine/arithmetic/elementary.hpp"
 
 namespace isojam {
@@ -52,8 +51,7 @@ Json critical_record(const CriticalAngles& angles) {
 
 Json random_record(const ConvexSolid& solid) {
   const RandomAlignment random(solid);
-  const RandomContact isotropic(solid);
-  Json constrained, unconstrained, all;
+  Json constrained, unconstrained;
   constrained["which"] = "random, edge in face";
   constrained["face_face"] =
       sampled([&](double theta) { return random.constrained_face_face(theta); }, random.constrained_ff_max());
@@ -62,10 +60,7 @@ Json random_record(const ConvexSolid& solid) {
   unconstrained["which"] = "random, unconstrained";
   unconstrained["face_face"] = sampled([&](double theta) { return random.face_face(theta); }, random.ff_max());
   unconstrained["edge_face"] = sampled([&](double theta) { return random.edge_face(theta); }, random.ef_max());
-  all["which"] = "random, vertices and edges";
-  all["face_face"] = sampled([&](double theta) { return isotropic.face_face(theta); }, isotropic.ff_max());
-  all["edge_face"] = sampled([&](double theta) { return isotropic.edge_face(theta); }, isotropic.ef_max());
-  return {constrained, unconstrained, all};
+  return {constrained, unconstrained};
 }
 
 }  // namespace

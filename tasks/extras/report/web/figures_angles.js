@@ -1,10 +1,10 @@
 'use strict';
 
 const randomColours = {
-  'random, edge in face': hues.grey, 'random, unconstrained': '#aaa9a2', 'random, vertices and edges': '#8c8b86',
+  'random, edge in face': hues.grey, 'random, unconstrained': '#aaa9a2',
 };
 const randomDashes = {
-  'random, edge in face': [8, 4], 'random, unconstrained': [2, 3], 'random, vertices and edges': [10, 3, 2, 3],
+  'random, edge in face': [8, 4], 'random, unconstrained': [2, 3],
 };
 const topologyShapes = {'vertex-face': 'triangle-up', 'edge-edge': 'cross', 'edge-face': 'square'};
 
