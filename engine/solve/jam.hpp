@@ -74,7 +74,7 @@ struct Decompression {
   /// Length of a step as a fraction of φ − φ_J, which is estimated from the last state. A step is shorter if it would
   /// otherwise exceed longest_step, or end at φ − φ_J < 0.95·final_distance. A step fails if it finds no equilibrium.
   /// After a failed step, the next step is half as long. Each successful step increases the fraction by a factor of
-  /// 1.5, up to this value.
+  /// 1.5, up to this value; below φ − φ_J = 0.001, where a longer step would fail again, it stays.
   double step_fraction = 0.35;
   double longest_step = 0.05;     ///< largest decrease of φ in a step
   double final_distance = 0.004;  ///< decompression ends when φ − φ_J falls below this
@@ -146,8 +146,8 @@ struct JamStep {
   /// difference from the state before; nullopt in compression, at the beginning of a solution branch, and for a step
   /// that failed, or in which a branch ended
   std::optional<Rearrangement> rearrangement;
-  /// True if the solution branch ended in this step of the decompression. Either the packing is unjammed, or this step
-  /// and the step before it, which was twice as long, both ended with StopReason::budget.
+  /// True if the solution branch ended in this step of the decompression. Either the packing is unjammed, or φ − φ_J is
+  /// above 0.001 and this step and the step before it, which was twice as long, both ended with StopReason::budget.
   bool lost = false;
 };
 

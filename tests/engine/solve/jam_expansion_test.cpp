@@ -135,6 +135,30 @@ TEST(JamTest, AStepWithoutEquilibriumEndsItsBranch) {
   EXPECT_GT(progress.result.path.back().density, second.density);
 }
 
+TEST(JamTest, AStepWithoutEquilibriumNearJammingOnlyShortensTheNextOnes) {
+  JamOptions options;
+  const JamResult before = expanded(options);
+  const double distance = distance_to_jamming(before.path[static_cast<std::size_t>(before.state_steps.back())]);
+  for (const double said : {5e-4, 2e-3}) {
+    JamOptions usual = options;
+    JamProgress progress = misled(before, said / distance, usual);
+    usual.decompression.final_distance = 1e-5;
+    JamOptions failing = usual;
+    failing.minimise.max_evaluations = 3;  // no step reaches an equilibrium
+    advance(progress, failing);
+    EXPECT_DOUBLE_EQ(progress.step_fraction, .2);
+    advance(progress, failing);
+    EXPECT_EQ(progress.result.path.back().summary.reason, StopReason::budget);
+    const bool near = said < 1e-3;
+    EXPECT_EQ(progress.lost, near ? -1 : 0);
+    EXPECT_DOUBLE_EQ(progress.step_fraction, .1);
+    if (!near) continue;
+    advance(progress, usual);
+    ASSERT_EQ(progress.result.states.size(), 2U);
+    EXPECT_DOUBLE_EQ(progress.step_fraction, .1);
+  }
+}
+
 TEST(JamTest, APackingThatLosesItsEnergyIsCompressedFurther) {
   const JamOptions options = lax();
   JamProgress progress = begin_jam(start_of(small, 71, options), options);
