@@ -73,7 +73,7 @@ ContactExponents contact_exponents(const Packing& packing, std::span<const Conta
   best.x.resize(contacts.size());
   const Evaluation here = energy.evaluate(packing, Precision::double_double);
   if (!(here.pressure > 0)) return best;
-  const double distance = 6 / slope_of(packing, here);
+  const double distance = best.distance = 6 / slope_of(packing, here);
   double length = options.longest_step;
   for (int k = 0; k < options.lengths; ++k, length /= 2) {
     for (const double step : {-length, length}) {
@@ -83,6 +83,7 @@ ContactExponents contact_exponents(const Packing& packing, std::span<const Conta
       if (!is_reversible(packing, here, next, energy.evaluate(next, Precision::double_double), step)) continue;
       best = compare(contacts, energy.contacts(next));
       best.step = step;
+      best.distance = distance;
       if (best.broken == 0 && best.formed == 0) return best;
     }
   }

@@ -33,6 +33,7 @@ struct ContactExponents {
   /// The exponent x of each contact. nullopt for the contacts that break in the step, however short, and for all
   /// contacts if no step was possible.
   std::vector<std::optional<double>> x;
+  double distance = 0;  ///< Δφ of the packing, 6E/(dE/dφ); 0 without pressure
   /// Relative change of Δφ in the step from which x was computed: negative for a step of decompression, positive for a
   /// step of compression, 0 if there is none.
   double step = 0;

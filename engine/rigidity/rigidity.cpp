@@ -181,6 +181,7 @@ Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& o
   const double rounding = static_cast<double>(std::max(constraints, coordinates)) * epsilon * soft.stiffest();
   result.tolerance =
       matrix.imbalance > options.balanced ? rounding : std::max(rounding, options.margin * matrix.imbalance);
+  result.tolerance = std::max(result.tolerance, options.least_tolerance);
   const Index least = std::max<Index>(0, constraints - (coordinates - 3)) + spare;
   // With so many states of self-stress, all singular values together cost less.
   if (constraints >= coordinates && least > coordinates && !options.stresses) {

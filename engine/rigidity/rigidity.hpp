@@ -36,6 +36,8 @@ struct RigidityOptions {
   /// Largest relative force residual for which the tolerance depends on `margin`. The relative force residual of an
   /// equilibrium is below this value if MinimiseOptions::residual has its default.
   double balanced = 1e-6;
+  /// Lower limit of the tolerance, for constraints whose directions are known only to this accuracy.
+  double least_tolerance = 0;
 };
 
 /// Computes the rank, and a basis of the states of self-stress if it is requested. The method is inverse subspace
@@ -43,6 +45,7 @@ struct RigidityOptions {
 /// Martinsson & Tropp 2011), but the same for every matrix of the same size. A singular value counts as zero if it is
 /// at most max(rows, 6N)·ε times an upper bound of the largest singular value, where ε = 2⁻⁵². If the relative force
 /// residual is at most `balanced`, a singular value also counts as zero if it is at most `margin` times this residual.
+/// It also counts as zero if it is at most `least_tolerance`.
 /// Throws std::invalid_argument if the rows contain NaN or infinity. The time is about a second for N = 400. If there
 /// are more states of self-stress than coordinates, as in a crystal, the rank comes from all singular values, unless a
 /// basis is requested.

@@ -50,6 +50,7 @@ def derived(states, particles):
                                          lambda n, tilts: tilts / n if n else None) for name in ("ff", "ef", "l")}
     made |= {f"{name}_each": each(states, [name], lambda n: n / particles)
              for name in ("held_by_second", "prestress_3", "prestress_10", "prestress_30")}
+    made["unresolved_each"] = each(states, ["zero"], lambda zero: (zero - 3) / particles)
     made |= {f"root_{name}": each(states, [name], lambda x: math.sqrt(x) if x > 0 else None) for name in ("G", "K")}
     made["omega_over_root_G"] = each({**states, **made}, ["omega_l", "root_G"], quotient)
     made["omega_over_root_K"] = each({**states, **made}, ["omega_l", "root_K"], quotient)

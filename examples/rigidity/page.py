@@ -12,7 +12,7 @@ import values  # noqa: E402
 from counting import EDGES, FAR, drawn_size, infinite, limit_at_jamming  # noqa: E402
 from data import SOLIDS, SOLIDS_64  # noqa: E402
 from tables import DISTANCES, TABLES, TILTS_AT, main_table, other_solids, tilts_table  # noqa: E402, F401
-from text import number, significant  # noqa: E402
+from text import interval, number, significant  # noqa: E402
 
 TITLE = "What makes a packing rigid"
 FILES = (HERE.parent / "paper/data/records.json", HERE / "data/records.json")
@@ -50,8 +50,17 @@ def missing_by_normals(data):
 
 
 def unsupported_modes(data):
-    """Modes per particle with less than half from normals and stiff tilts."""
-    return [data.at(s, 100, "prestress_10_each", TILTS_AT)["mean"] for s in SOLIDS]
+    """Modes per particle with less than half from normals and stiff tilts, or that are not resolved."""
+    return [data.at(s, 100, "prestress_10_each", TILTS_AT)["mean"] + data.at(s, 100, "unresolved_each", TILTS_AT)["mean"]
+            for s in SOLIDS]
+
+
+def single_stress(data, which):
+    """Number of packings nearest jamming with one state of self-stress by trough, or of all packings: octahedra, icosahedra
+    and dodecahedra."""
+    found = [r["states"]["self_stress_trough"][-1] for s in WITHOUT_TETRAHEDRA for n in data.sizes(s)
+             for r in data.kept(s, n) if r["states"].get("self_stress_trough", [None])[-1] is not None]
+    return str(found.count(1) if which == "one" else len(found))
 
 
 def wave_ratios(data):
@@ -105,6 +114,8 @@ value_of = values.value_of({
     "missing_normals": end_of(missing_by_normals, 1), "supported": lambda data: str(math.floor(100 * (1 - max(unsupported_modes(data)) / 6))),
     "waves": end_of(wave_ratios, 1), "m_trough": lambda data, solid: number(
         data.nearest(solid, 100, "missing_trough")["mean"], 2),
+    "single_stress": single_stress,
+    "C_s": lambda data, solid: interval(data.nearest(solid, 100, "C_s")),
     "farthest": lambda data: significant(farthest(data), 2),
     "size": lambda data: str(drawn_size(data)), "isostatic": lambda data: values.against_isostatic(
         data, "trough", drawn_size(data)),
@@ -143,7 +154,7 @@ CLAIMS = {
         for s in SOLIDS),
     "normals alone do so in most modes only in tetrahedra,": lambda data: [
         data.at(s, 100, "held_by_second_each", TILTS_AT)["mean"] < 3 for s in SOLIDS] == [True, False, False, False],
-    "For any classification of contacts, C = 12 − 6/N − 2m + 2S/N": identity_holds,
+    "For any classification, C = 12 − 6/N − 2m + 2S/N": identity_holds,
     "Linear extrapolation to Δφ = 0 gives these C within errors of": lambda data: all(
         abs(limit["mean"] - data.constraints(s, drawn_size(data), "trough")["mean"]) < limit["half_width"]
         for s, limit in zip(SOLIDS, limits_by_trough(data))),
@@ -152,16 +163,20 @@ CLAIMS = {
         and data.nearest(SOLIDS[0], 100, "redundant_trough")["mean"] > 0.05,
     "Fewer are missing in octahedra": lambda data: all(data.nearest(SOLIDS[1], n, "missing_trough")["mean"] < min(
         data.nearest(s, n, "missing_trough")["mean"] for s in SOLIDS[2:]) for n in (100, 400)),
-    "C_s of icosahedra and dodecahedra agrees with 12 − 4/N; C_s of octahedra and tetrahedra exceeds it.": lambda data: [
+    "At this Δφ, C_s of icosahedra and dodecahedra agrees with 12 − 4/N, and C_s of octahedra and tetrahedra exceeds it.":
+        lambda data: [
         abs((c := data.nearest_of(SOLIDS_64, s, "C_s"))["mean"] - (12 - 4 / 64)) < c["half_width"] for s in SOLIDS] == [
             False, False, True, True] and min(data.nearest_of(SOLIDS_64, s, "C_s")["mean"] for s in SOLIDS[:2]) > 12,
+    "Nearer to jamming, C_s of icosahedra and dodecahedra is below 12 − 4/N": lambda data: all(
+        (c := data.nearest(s, 100, "C_s"))["mean"] + c["half_width"] < 12 - 4 / 100 for s in SOLIDS[2:]),
+    "so that m decides": lambda data: int(single_stress(data, "one")) > 0.9 * int(single_stress(data, "all")),
     "By fit, the limits of m for N → ∞ are compatible with zero in icosahedra and dodecahedra.": lambda data: all(
         m["mean"] < m["half_width"] for m in missing_limits(data)),
     "The limits of icosahedra and dodecahedra use almost only states with Δφ < 0.001.": lambda data: all(
         share_below(data, s, "C_trough", 0.001, 0.01) > 0.8 for s in SOLIDS[2:]),
     "In no solid are the exponents of E and K constant: at the largest Δφ, both are smaller than nearer to jamming.":
         lambda data: all(decreasing(data, s, column) for s in SOLIDS for column in ("E", "K")),
-    "It exceeds C by fit most in icosahedra, dodecahedra and truncated octahedra, because their other contacts have the most "
+    "C_s exceeds C by fit most in icosahedra, dodecahedra and truncated octahedra, because their other contacts have the most "
     "stiff tilts.": lambda data: set(most(data, lambda s: data.nearest_of(SOLIDS_64, s, "C_s")["mean"] - data.nearest_of(
         SOLIDS_64, s, "C")["mean"])) == set(most(data, lambda s: data.nearest_of(SOLIDS_64, s, "stiff_tilts_l")["mean"])) == {
             "icosahedron", "dodecahedron", "truncated_octahedron"},

@@ -10,7 +10,7 @@ from limits import FORMS
 from text import counted, interval, number, significant, table
 
 DISTANCES = (0.04, 0.02, 0.01, 0.005, 0.0025, 0.001, None)
-TILTS_AT = 0.001  # Δφ at which modes and tilts are compared: nearer to jamming, softest modes are unresolved
+TILTS_AT = 0.001  # Δφ at which modes and tilts are compared: nearer to jamming, more of the softest modes are unresolved
 MODES = "modes per particle with less than half from"
 FITTED = {"face_face": "cut_ff", "edge_face": "cut_ef"}
 COLUMNS = [f"Δφ = {d}" if d else "nearest" for d in DISTANCES]
@@ -51,6 +51,7 @@ def tilts_table(data):
     return table([f"Δφ = {TILTS_AT}", *SOLIDS], [
         [name, *(interval(data.at(s, 100, column, TILTS_AT)) for s in SOLIDS)] for name, column in (
             (f"{MODES} normals", "held_by_second_each"), (f"{MODES} normals and stiff tilts", "prestress_10_each"),
+            ("modes per particle that cannot be distinguished from zero modes", "unresolved_each"),
             ("stiff tilts per face-face contact", "stiff_tilts_ff"),
             ("stiff tilts per edge-face contact", "stiff_tilts_ef"), ("stiff tilts per other contact", "stiff_tilts_l"),
             ("m by fit", "missing"), ("m by fit without near-rattlers", "backbone_m"))])

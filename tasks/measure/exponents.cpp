@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "engine/vibration/backbone.hpp"
 #include "tasks/measure/rank_parts.hpp"
 #include "tasks/measure/shared_parts.hpp"
@@ -112,6 +113,10 @@ struct Followed {
   ClassifiedContacts classified;
   ContactExponents exponents;
 
+  /// The faces and edges of a contact are parallel only to within angles ~ Δφ^(5/3) (theory.md), so that singular values
+  /// of this size are not resolved.
+  RigidityOptions accuracy() const { return {.least_tolerance = nearest::pow(exponents.distance, 5. / 3)}; }
+
   std::vector<ContactClass> classes(const ExponentBoundaries& boundaries = {}) const {
     return classes_of(exponents, classified.alignments, boundaries);
   }
@@ -134,7 +139,7 @@ void add_supported(Supported& record, const Packing& packing, const Followed& fo
     const auto matrix = class_constraints(part, within.contacts, alignments, classes);
     const auto loose = underconstrained(matrix, part.size());
     if (loose.empty()) {
-      const auto rank = rank_of(matrix);
+      const auto rank = rank_of(matrix, followed.accuracy());
       record.C.value = contact_numbers(part.size(), classes).C;
       record.missing = missing(rank, part.size());
       record.self_stress = rank.self_stress;
@@ -150,7 +155,7 @@ void add_classes(Exponents& record, const Packing& packing, const Followed& foll
   const int n = packing.size();
   const auto& [contacts, alignments, analysis] = followed.classified;
   const auto rank = [&](std::span<const ContactClass> classes) {
-    return rank_of(class_constraints(packing, contacts, alignments, classes));
+    return rank_of(class_constraints(packing, contacts, alignments, classes), followed.accuracy());
   };
   const auto classes = followed.classes(), fewest = followed.classes(fewest_constraints),
              most = followed.classes(most_constraints);

@@ -22,8 +22,8 @@ void describe_rank(Fields& field, Rank& rank, const std::string& name, const std
   field("largest_dropped", rank.largest_dropped, "Largest singular value that counts as zero.");
 }
 
-Rank rank_of(const RigidityMatrix& matrix) {
-  const auto found = analyse_rigidity(matrix);
+Rank rank_of(const RigidityMatrix& matrix, const RigidityOptions& options) {
+  const auto found = analyse_rigidity(matrix, options);
   return {{found.constraints, ""}, {found.rank, ""}, {found.self_stress, ""}, {found.floppy, ""},
           found.tolerance,         found.least_kept, found.largest_dropped};
 }

@@ -20,7 +20,7 @@ struct Rank {
 /// constraints there are.
 void describe_rank(Fields& field, Rank& rank, const std::string& name, const std::string& letter,
                    const std::string& condition);
-Rank rank_of(const RigidityMatrix& matrix);
+Rank rank_of(const RigidityMatrix& matrix, const RigidityOptions& options = {});
 Rank no_rank(std::string_view why);
 
 }  // namespace isojam
