@@ -62,24 +62,17 @@ const ClassCutoffs& ContactAnalysis::cutoffs_of(const ConvexSolid& a, const Conv
   return *this;
 }
 
-std::optional<double> ContactAnalysis::disagreement() const {
-  const bool by_fit = face_face.has_cutoff();
-  if (!by_fit || !Z_ff_gap) return std::nullopt;
-  return *Z_ff_gap - numbers.Z_ff;
-}
-
 namespace {
+
+/// Accuracy of alignment angles of parallel features (radians).
+constexpr double resolution = 1e-12;
 
 /// True if the angles in a window can be distinguished from 0. A solid with faces that are nearly in one plane has a
 /// smaller window.
-bool is_resolved(double upper) { return upper > GapOptions{}.resolution; }
+bool is_resolved(double upper) { return upper > resolution; }
 
 CdfFit fit_of(std::span<const double> angles, double upper) {
   return is_resolved(upper) ? fit_cdf(angles, upper) : CdfFit{.verdict = FitVerdict::too_few};
-}
-
-GapSplit split_of(std::span<const double> angles, double upper) {
-  return is_resolved(upper) ? split_at_gap(angles, upper) : GapSplit{.verdict = GapVerdict::too_few};
 }
 
 /// Cut-offs from the contacts of several packings together.
@@ -95,8 +88,6 @@ ClassCutoffs cutoffs_of(const CriticalAngles& critical, std::span<const std::vec
   cutoffs.critical = critical;
   cutoffs.face_face = fit_of(face_face, critical.ff_min() / 2);
   cutoffs.edge_face = fit_of(edge_face, critical.ef_min() / 2);
-  cutoffs.face_face_gap = split_of(face_face, critical.ff_min() / 2);
-  cutoffs.edge_face_gap = split_of(edge_face, critical.ef_min() / 2);
   return cutoffs;
 }
 
@@ -168,8 +159,6 @@ void take_vaguer(const ShapePair& pair, ContactAnalysis& all) {
   const ClassCutoffs& cutoffs = pair.cutoffs;
   if (is_vaguer(cutoffs.face_face, all.face_face)) all.face_face = cutoffs.face_face;
   if (is_vaguer(cutoffs.edge_face, all.edge_face)) all.edge_face = cutoffs.edge_face;
-  if (!(cutoffs.face_face_gap.cutoff > 0)) all.face_face_gap = cutoffs.face_face_gap;
-  if (!(cutoffs.edge_face_gap.cutoff > 0)) all.edge_face_gap = cutoffs.edge_face_gap;
   all.critical.take_lesser(cutoffs.critical);
 }
 
@@ -177,16 +166,11 @@ ContactAnalysis analyse_mixture(const Composition& solids, int particles, std::s
                                 std::span<const Alignment> alignments) {
   ContactAnalysis analysis;
   analysis.classes.resize(contacts.size());
-  std::vector<ContactClass> by_gap(contacts.size());
   for (Group& group : groups_of(solids, contacts, alignments)) {
     ShapePair& pair = group.pair;
     pair.cutoffs = cutoffs_of(critical_angles(*pair.a, *pair.b), std::span(&group.alignments, 1));
     const auto classes = classify(group.alignments, pair.cutoffs.face_face.cutoff, pair.cutoffs.edge_face.cutoff);
-    const auto gap = classify(group.alignments, pair.cutoffs.face_face_gap.cutoff, 0);
-    for (std::size_t k = 0; k < group.members.size(); ++k) {
-      analysis.classes[group.members[k]] = classes[k];
-      by_gap[group.members[k]] = gap[k];
-    }
+    for (std::size_t k = 0; k < group.members.size(); ++k) analysis.classes[group.members[k]] = classes[k];
     if (analysis.pairs.empty()) {
       static_cast<ClassCutoffs&>(analysis) = pair.cutoffs;
     } else {
@@ -196,7 +180,6 @@ ContactAnalysis analyse_mixture(const Composition& solids, int particles, std::s
   }
   analysis.numbers = contact_numbers(particles, analysis.classes);
   analysis.fixed_cutoffs = fixed_cutoff_numbers(particles, alignments);
-  if (analysis.face_face_gap.cutoff > 0) analysis.Z_ff_gap = contact_numbers(particles, by_gap).Z_ff;
   analysis.of_kinds = numbers_of_kinds(solids, particles, contacts, analysis.classes);
   return analysis;
 }
@@ -215,8 +198,6 @@ std::vector<ContactAnalysis> analyse_pooled(const ConvexSolid& solid, int partic
     analysis.classes = classify(alignments, analysis.face_face.cutoff, analysis.edge_face.cutoff);
     analysis.numbers = contact_numbers(particles, analysis.classes);
     analysis.fixed_cutoffs = fixed_cutoff_numbers(particles, alignments);
-    if (analysis.face_face_gap.cutoff > 0)
-      analysis.Z_ff_gap = contact_numbers(particles, classify(alignments, analysis.face_face_gap.cutoff, 0)).Z_ff;
   }
   return analyses;
 }

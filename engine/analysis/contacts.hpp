@@ -9,7 +9,6 @@
 #include "engine/analysis/alignment/alignment.hpp"
 #include "engine/analysis/alignment/cdf_fit.hpp"
 #include "engine/analysis/alignment/critical_angles.hpp"
-#include "engine/analysis/alignment/gap_split.hpp"
 #include "engine/names/enum_names.hpp"
 
 namespace isojam {
@@ -31,8 +30,6 @@ struct ContactNumbers {
 /// Cut-offs that separate the contact classes, for the contacts between solids of two shapes.
 struct ClassCutoffs {
   CdfFit face_face, edge_face;  ///< fits of the distributions of θ_ff and of θ_ef
-  /// cut-offs by a second method: from gaps in the same angles
-  GapSplit face_face_gap, edge_face_gap;
   /// critical angles; angles above half of the smallest critical angle are not used for the cut-offs
   CriticalAngles critical;
 };
@@ -46,23 +43,18 @@ struct ShapePair {
 
 /// Result of analyse_contacts(). If particles have several shapes, `pairs` contains the cut-offs of each pair of
 /// shapes, and the members of the base class summarise them. The critical angles are then the smallest of all pairs.
-/// Each fit and each gap is a copy from the least conclusive pair of shapes: a pair without a cut-off if there is one,
-/// otherwise a pair with a doubtful fit, otherwise any pair.
+/// Each fit is a copy from the least conclusive pair of shapes: a pair without a cut-off if there is one, otherwise a
+/// pair with a doubtful fit, otherwise any pair.
 struct ContactAnalysis : ClassCutoffs {
   std::vector<ShapePair> pairs;  ///< pairs of shapes that have contacts; empty if there is only one shape
-  /// Number of packings whose angles were combined for the fits and gaps; 1 if the angles are those of this packing
-  /// only.
+  /// Number of packings whose angles were combined for the fits; 1 if the angles are those of this packing only.
   int pooled_over = 1;
   /// class of each contact from the fitted cut-offs, in the order of the contacts
   std::vector<ContactClass> classes;
   ContactNumbers numbers;  ///< contact and constraint numbers from the fitted cut-offs
-  /// Z_ff with the cut-off of face_face_gap instead of the fitted cut-off; nullopt if there is no such cut-off
-  std::optional<double> Z_ff_gap;
   ContactNumbers fixed_cutoffs;  ///< result of fixed_cutoff_numbers()
   /// contact and constraint numbers for the particles of each kind of a mixture; empty if all particles are identical
   std::vector<ContactNumbers> of_kinds;
-  /// Difference Z_ff_gap − Z_ff; nullopt unless both methods give a cut-off.
-  std::optional<double> disagreement() const;
   /// The cut-offs for contacts between the shapes `a` and `b`, which are objects that Composition::unit() returned. If
   /// this pair has no contacts, the result is the summary in this object.
   const ClassCutoffs& cutoffs_of(const ConvexSolid& a, const ConvexSolid& b) const;
@@ -82,7 +74,7 @@ ContactAnalysis analyse_contacts(const Composition& solids, int particles, std::
                                  std::span<const Alignment> alignments);
 
 /// Classifies the contacts of several packings with the same number of particles, for example of the replicates of a
-/// sweep point. The fits and gaps use the angles of all packings together. The contacts of each packing are then
+/// sweep point. The fits use the angles of all packings together. The contacts of each packing are then
 /// classified by these common cut-offs. The results are in the order of `packings`.
 std::vector<ContactAnalysis> analyse_pooled(const ConvexSolid& solid, int particles,
                                             std::span<const std::vector<Alignment>> packings);

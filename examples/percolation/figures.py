@@ -25,14 +25,14 @@ def bars(axes, x, estimates, solid, **style):
 
 
 def strengths(data, out):
-    """Z_ff, C and φ_0 against the strength of the cohesion. Z_ff is drawn for cut-offs by fit and, open, by gap."""
+    """Z_ff, C and φ_0 against the strength of the cohesion. Z_ff is drawn for cut-offs by fit and, open, by trough."""
     figure, panels = pyplot.subplots(1, 3, figsize=(WIDTH, 2.5), layout="constrained")
     for axes, column, label, name in zip(panels, ("Z_ff_fit", "C", "phi_0"), ("$Z_{ff}$", "$C$", "φ$_0$"), "abc"):
         for solid in SOLIDS:
             w = data.strengths("end", 100)
             bars(axes, w, [mean(data.kept(solid, 100, each), column) for each in w], solid)
             if column == "Z_ff_fit":
-                bars(axes, [1.15 * x for x in w], [mean(data.kept(solid, 100, each), "Z_ff_gap") for each in w], solid,
+                bars(axes, [1.15 * x for x in w], [mean(data.kept(solid, 100, each), "Z_ff_trough") for each in w], solid,
                      markerfacecolor="none", linewidth=0.6, linestyle="--")
             without = (mean(data.untreated(solid, 100), column) if column == "phi_0" else
                        estimate_of(values_at(data.untreated(solid, 100), column, AT)))

@@ -17,10 +17,10 @@ sys.path.insert(0, str(HERE.parent / "page"))
 from records import constraints_with, found, records_of, write  # noqa: E402
 
 # Column of a state: where it is in the record.
-METHODS = ("fit", "gap", "trough")
+METHODS = ("fit", "trough")
 COLUMNS = {
     "phi": "density", "delta": "delta_phi", "Z": "contacts/Z", "C": "contacts/C", "Z_ff_fit": "contacts/Z_ff",
-    "Z_ff_gap": "contacts/Z_ff_gap", "Z_ff_trough": "contacts/trough/Z_ff", "C_trough": "contacts/trough/C",
+    "Z_ff_trough": "contacts/trough/Z_ff", "C_trough": "contacts/trough/C",
     "Z_grown": "contacts/Z_grown", "tension": "contacts/tension", "Q6": "order/Q6",
     **{f"{name}_{method}": f"percolation/{method}/{place}" for method in METHODS for name, place in (
         ("S", "S"), ("largest", "largest"), ("winding", "winding_rank"), ("S_random", "random/S"),

@@ -5,7 +5,7 @@ from analysis import (AFTER, AT, NO_COHESION, SOLIDS, all_of_size, collapse, con
 from estimates import estimate_of
 from text import counted, interval, number, table
 
-METHODS = ("fit", "gap", "trough")
+METHODS = ("fit", "trough")
 ALL = (*SOLIDS, "cube")
 SHOWN = (1e-6, 1e-4)  # strengths in the main table
 

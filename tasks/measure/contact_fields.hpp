@@ -38,24 +38,8 @@ inline void describe(Fields& field, FitRecord& fit) {
   field("error", fit.error, "Squared deviation ∫ (c_f − c)² dθ of the fitted function c_f from the CDF c.");
 }
 
-struct GapRecord {
-  GapVerdict verdict = GapVerdict::not_called;
-  std::optional<double> cutoff;
-};
-inline void describe(Fields& field, GapRecord& gap) {
-  field.type("gap",
-             "Search for a gap in log θ that divides the alignment angles into two groups. It uses only angles below "
-             "half of the smallest critical angle.");
-  field("verdict", gap.verdict,
-        "Result of the search. `separated`: There are two groups of angles with a gap between them. `all_alike`: All "
-        "angles are in one group near zero, and the gap is above this group. `no_gap`: No gap was found. `too_few`: "
-        "There are fewer than 10 angles in this range. `not_called`: No search was made.");
-  field("cutoff", gap.cutoff, "Cut-off: the middle of the gap, in radians; absent if there is no gap.");
-}
-
 struct CutoffRecords {
   FitRecord face_face_fit, edge_face_fit;
-  GapRecord face_face_gap, edge_face_gap;
 };
 /// Contact numbers by fitted cut-offs.
 struct KnownNumbers {
@@ -99,10 +83,6 @@ inline void describe(Fields& field, ShapePairRecord& pair) {
   auto& cutoffs = pair.cutoffs;
   field("face_face_fit", cutoffs.face_face_fit, "Fit to the distribution of θ_ff in these contacts.");
   field("edge_face_fit", cutoffs.edge_face_fit, "Fit to the distribution of θ_ef in these contacts.");
-  field("face_face_gap", cutoffs.face_face_gap,
-        "Search for a gap between two groups of angles θ_ff in these contacts.");
-  field("edge_face_gap", cutoffs.edge_face_gap,
-        "Search for a gap between two groups of angles θ_ef in these contacts.");
 }
 
 struct Partial {
@@ -159,7 +139,6 @@ struct Contacts {
   KnownNumbers numbers;
   double Q6 = 0;
   CutoffRecords cutoffs;
-  Reasoned<> Z_ff_gap, Z_ff_disagreement;
   ContactNumbers fixed_cutoffs;
   int pooled_over = 1;
   std::vector<KnownNumbers> kinds;
@@ -218,17 +197,6 @@ inline void describe_cutoffs(Fields& field, Contacts& contacts) {
         "Fit to the distribution of θ_ff. It gives the cut-off of face-face contacts.");
   field("edge_face_fit", cutoffs.edge_face_fit,
         "Fit to the distribution of θ_ef. It gives the cut-off of edge-face contacts.");
-  field("face_face_gap", cutoffs.face_face_gap,
-        "Search for a gap between two groups of angles θ_ff. A gap gives another cut-off of face-face contacts.");
-  field("edge_face_gap", cutoffs.edge_face_gap,
-        "Search for a gap between two groups of angles θ_ef. A gap gives another cut-off of edge-face contacts.");
-  field("Z_ff_gap", contacts.Z_ff_gap,
-        "Number of face-face contacts per particle, with the cut-off in the gap between two groups of angles θ_ff; "
-        "null if there is no gap.")
-      .unit("per particle")
-      .column({"Z_ff_gap", contact_group, "Z_{ff}^{gap}"});
-  field("Z_ff_disagreement", contacts.Z_ff_disagreement,
-        "Difference `Z_ff_gap` − `Z_ff`; null if one of the two is null.");
   field.nested(
       "fixed_cutoffs", [&contacts](Fields& inner) { describe_fixed(inner, contacts.fixed_cutoffs); },
       "Contact numbers and constraint number with fixed cut-offs instead of fitted ones. Each value is the "

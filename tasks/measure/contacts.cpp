@@ -19,13 +19,8 @@ FitRecord fit_record(const CdfFit& fit) {
   return {fit.verdict, fit.cutoff, fit.alpha, fit.a[0], fit.a0_error, fit.error};
 }
 
-GapRecord gap_record(const GapSplit& gap) {
-  return {gap.verdict, gap.cutoff > 0 ? std::optional(gap.cutoff) : std::nullopt};
-}
-
 CutoffRecords cutoff_records(const ClassCutoffs& cutoffs) {
-  return {fit_record(cutoffs.face_face), fit_record(cutoffs.edge_face), gap_record(cutoffs.face_face_gap),
-          gap_record(cutoffs.edge_face_gap)};
+  return {fit_record(cutoffs.face_face), fit_record(cutoffs.edge_face)};
 }
 
 /// If a fit found no cut-off, there is no classification. Numbers that depend on it are then null, not zero.
@@ -43,8 +38,6 @@ Contacts contact_record(const ContactAnalysis& analysis) {
   record.numbers = known_numbers(analysis.numbers, analysis);
   record.Q6 = analysis.Q6;
   record.cutoffs = cutoff_records(analysis);
-  record.Z_ff_gap = reasoned(analysis.Z_ff_gap, to_string(analysis.face_face_gap.verdict));
-  record.Z_ff_disagreement = reasoned(analysis.disagreement(), "one of the methods gives no cut-off");
   record.fixed_cutoffs = analysis.fixed_cutoffs;
   record.pooled_over = analysis.pooled_over;
   for (const auto& numbers : analysis.of_kinds) record.kinds.push_back(known_numbers(numbers, analysis));

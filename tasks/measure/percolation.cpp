@@ -26,12 +26,12 @@ struct ClustersByMethod {
   RandomBonds random;
 };
 struct Percolations {
-  ClustersByMethod fit, gap, trough;
+  ClustersByMethod fit, trough;
 };
 
 constexpr QuantityGroup group{
     "percolation",
-    "Clusters of face-face contacts with fitted cut-offs, gaps and troughs, and of as many contacts drawn at random."};
+    "Clusters of face-face contacts with fitted cut-offs and troughs, and of as many contacts drawn at random."};
 
 /// Name of a method, and the cut-off by which it finds face-face contacts.
 struct Method {
@@ -106,7 +106,6 @@ void describe(Fields& field, Percolations& all) {
         "Clusters with the " + method.cutoff + ".");
   };
   add(all.fit, {"fit", "fitted cut-off"});
-  add(all.gap, {"gap", "cut-off in the gap of the angles"});
   add(all.trough, {"trough", "cut-off in the trough of the density of log10 θ_ff"});
 }
 
@@ -115,7 +114,7 @@ struct State {
 };
 void describe(Fields& field, State& state) {
   field("percolation", state.percolation,
-        "Clusters that face-face contacts form, for three methods that find the cut-off of θ_ff, and clusters of "
+        "Clusters that face-face contacts form, for two methods that find the cut-off of θ_ff, and clusters of "
         "random bonds.");
 }
 
@@ -133,30 +132,15 @@ FaceFace by_fit(const ClassifiedContacts& classified) {
   return {bonds_of(classified.contacts, classified.analysis.classes), ""};
 }
 
-/// The contacts with θ_ff below a cut-off, which may depend on the contact.
-template <class Cutoff>
-FaceFace below(const ClassifiedContacts& classified, const Cutoff& cutoff) {
-  FaceFace found;
-  for (std::size_t k = 0; k < classified.contacts.size(); ++k) {
-    const Contact& contact = classified.contacts[k];
-    if (classified.alignments[k].face_face < cutoff(contact)) found.bonds.push_back(contact.pair);
-  }
-  return found;
-}
-
-FaceFace by_gap(const Packing& packing, const ClassifiedContacts& classified) {
-  if (!classified.analysis.Z_ff_gap) return {{}, to_string(classified.analysis.face_face_gap.verdict)};
-  return below(classified, [&](const Contact& contact) {
-    const auto& a = packing.solids.unit(static_cast<std::size_t>(contact.pair.a));
-    const auto& b = packing.solids.unit(static_cast<std::size_t>(contact.pair.b));
-    return classified.analysis.cutoffs_of(a, b).face_face_gap.cutoff;
-  });
-}
-
 FaceFace by_trough(const ClassifiedContacts& classified) {
   const TroughCutoffs troughs = trough_cutoffs(histogram_of(classified));
   if (!troughs.has_face_face()) return {{}, "no trough in θ_ff"};
-  return below(classified, [&](const Contact&) { return angle_bin_edge(troughs.face_face.cutoff); });
+  FaceFace found;
+  for (std::size_t k = 0; k < classified.contacts.size(); ++k) {
+    if (classified.alignments[k].face_face < angle_bin_edge(troughs.face_face.cutoff))
+      found.bonds.push_back(classified.contacts[k].pair);
+  }
+  return found;
 }
 
 ClustersByMethod clusters_of(const Packing& packing, const ClassifiedContacts& classified, const FaceFace& face_face) {
@@ -192,7 +176,7 @@ Measurement measure_percolation(const JamResult& jam, const MeasureOptions&) {
     const auto classified = classified_contacts(packing, energy);
     const auto found = [&](const FaceFace& face_face) { return clusters_of(packing, classified, face_face); };
     measurement.states.push_back(
-        written(State{{found(by_fit(classified)), found(by_gap(packing, classified)), found(by_trough(classified))}}));
+        written(State{{found(by_fit(classified)), found(by_trough(classified))}}));
   }
   return measurement;
 }

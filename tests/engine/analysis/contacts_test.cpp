@@ -197,35 +197,6 @@ TEST_P(ContactsOf, CollapsedAndEmptyFitsLeaveTheirClassEmpty) {
   EXPECT_EQ(analysis.numbers.C, 8);
 }
 
-TEST_P(ContactsOf, TheGapFindsTheSameFaceFaceContacts) {
-  const int contacts = 1000, particles = 200;
-  const std::vector<Alignment> all = alignments(solid, mixture(contacts));
-  const ContactAnalysis analysis = analyse_contacts(solid, particles, all);
-  ASSERT_EQ(analysis.face_face_gap.verdict, GapVerdict::separated);
-  ASSERT_TRUE(analysis.Z_ff_gap && analysis.disagreement());
-  EXPECT_EQ(analysis.disagreement(), *analysis.Z_ff_gap - analysis.numbers.Z_ff);
-  // By chance, some other contacts are as well aligned as the face-face contacts.
-  int below = 0, by_chance = 0;
-  for (int k = 0; k < contacts; ++k) {
-    const bool aligned = all[k].face_face < analysis.face_face_gap.cutoff;
-    below += aligned;
-    by_chance += aligned && k % 10 != 0;
-    EXPECT_TRUE(aligned || k % 10 != 0) << "face-face contact " << k << " at " << all[k].face_face;
-  }
-  EXPECT_LE(by_chance, 0.02 * contacts);
-  EXPECT_EQ(*analysis.Z_ff_gap, 2.0 * below / particles);
-  EXPECT_NEAR(*analysis.disagreement(), 0, 4 * analysis.face_face.a0_error * analysis.numbers.Z);
-}
-
-TEST_P(ContactsOf, WithoutAGapThereIsNoDisagreement) {
-  std::vector<Alignment> all;
-  for (int k = 0; k < 400; ++k) all.push_back(angles((k + 0.5) / 400 * critical.ff_min(), critical.ef_min()));
-  const ContactAnalysis analysis = analyse_contacts(solid, 100, all);
-  EXPECT_EQ(analysis.face_face_gap.verdict, GapVerdict::no_gap);
-  EXPECT_FALSE(analysis.Z_ff_gap);
-  EXPECT_FALSE(analysis.disagreement());
-}
-
 TEST_P(ContactsOf, FixedCutoffsCountMoreConstraints) {
   const std::vector<Alignment> all = alignments(solid, mixture(400));
   const ContactAnalysis analysis = analyse_contacts(solid, 100, all);
@@ -255,18 +226,14 @@ TEST_P(ContactsOf, APoolIsFittedOnceAndClassifiedOneByOne) {
   EXPECT_EQ(one.pooled_over, 1);
   ASSERT_EQ(pooled.size(), packings.size());
   std::vector<ContactClass> classes;
-  double face_face = 0;
   for (std::size_t k = 0; k < pooled.size(); ++k) {
     EXPECT_EQ(pooled[k].pooled_over, 4);
     EXPECT_EQ(pooled[k].face_face.cutoff, one.face_face.cutoff);
     EXPECT_EQ(pooled[k].edge_face.cutoff, one.edge_face.cutoff);
-    EXPECT_EQ(pooled[k].face_face_gap.cutoff, one.face_face_gap.cutoff);
     EXPECT_EQ(pooled[k].numbers.Z, 2.0 * static_cast<double>(packings[k].size()) / 50);
     classes.insert(classes.end(), pooled[k].classes.begin(), pooled[k].classes.end());
-    face_face += pooled[k].Z_ff_gap.value();
   }
   EXPECT_EQ(classes, one.classes);
-  EXPECT_NEAR(face_face, one.Z_ff_gap.value(), 1e-12 * face_face);
   EXPECT_TRUE(analyse_pooled(solid, 50, {}).empty());
 }
 
@@ -281,7 +248,6 @@ TEST(Contacts, OfASolidWithFacesNearlyInOnePlaneHaveNoClasses) {
     EXPECT_EQ(solid.faces().size(), 7U) << height;
     const ContactAnalysis analysis = analyse_contacts(solid, 50, alignments);
     EXPECT_EQ(analysis.face_face.verdict, FitVerdict::too_few) << height;
-    EXPECT_EQ(analysis.face_face_gap.verdict, GapVerdict::too_few) << height;
     EXPECT_EQ(analysis.numbers.Z, 8) << height;
     EXPECT_EQ(analysis.fixed_cutoffs.C, fixed_cutoff_numbers(50, alignments).C) << height;
   }
@@ -291,16 +257,12 @@ TEST_P(ContactsOf, FewOrPerfectContactsHaveDefinedResults) {
   for (const int contacts : {0, 1}) {
     const ContactAnalysis analysis = analyse_contacts(solid, 3, std::vector<Alignment>(contacts, angles(0, 0)));
     EXPECT_EQ(analysis.face_face.verdict, FitVerdict::too_few);
-    EXPECT_EQ(analysis.face_face_gap.verdict, GapVerdict::too_few);
     EXPECT_EQ(analysis.numbers.C, 2.0 * contacts / 3);
-    EXPECT_FALSE(analysis.disagreement());
   }
   const ContactAnalysis crystal = analyse_contacts(solid, 10, std::vector<Alignment>(30, angles(0, 0)));
   EXPECT_EQ(crystal.face_face.verdict, FitVerdict::fitted);
-  EXPECT_EQ(crystal.face_face_gap.verdict, GapVerdict::all_alike);
   EXPECT_EQ(crystal.numbers.Z_ff, 6);
   EXPECT_EQ(crystal.numbers.C, 18);
-  EXPECT_EQ(crystal.disagreement(), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Solids, ContactsOf, testing::ValuesIn(all_solids),

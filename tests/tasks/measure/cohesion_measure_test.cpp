@@ -133,8 +133,7 @@ TEST(CohesionMeasure, HasTheClustersOfTheOtherMeasures) {
       const Json& contacts = outcome.measured.at(Measure::contacts).states[k].at("contacts");
       const double particles = outcome.jam.states[k].size();
       for (const auto& [method, Z_ff] :
-           {std::pair{"fit", contacts.at("Z_ff")}, std::pair{"gap", contacts.at("Z_ff_gap")},
-            std::pair{"trough", contacts.at("trough").at("Z_ff")}}) {
+           {std::pair{"fit", contacts.at("Z_ff")}, std::pair{"trough", contacts.at("trough").at("Z_ff")}}) {
         const Json& found = all.at(method);
         EXPECT_EQ(found.at("S").is_null(), Z_ff.is_null()) << method;
         if (Z_ff.is_null()) continue;
