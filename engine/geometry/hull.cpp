@@ -1,8 +1,6 @@
 #include "engine/geometry/hull.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -16,46 +14,41 @@ namespace isojam {
 
 namespace {
 
-// To decide which vertices form a face needs less precision than the constants of a solid.
-using Vector3l = Eigen::Matrix<long double, 3, 1>;
-
-Vector3l narrowed(const Quad3& p) {
-  return {static_cast<long double>(p[0]), static_cast<long double>(p[1]), static_cast<long double>(p[2])};
-}
-
 /// A plane through `point`; `normal` has unit length, or is 0 if the triangles of the face have no area.
 struct PartPlane {
-  Vector3l normal = Vector3l::Zero(), point = Vector3l::Zero();
-  long double height(const Vector3l& p) const { return normal.dot(p - point); }
+  Quad3 normal{}, point{};
+  Quad height(const Quad3& p) const { return dot(normal, p - point); }
 };
 
 /// A face that is being joined from triangles.
 struct Part {
-  Vector3l area = Vector3l::Zero();  ///< sum of the area vectors of its triangles
-  std::vector<int> vertices;         ///< sorted
-  int changes = 0;                   ///< number of times that it was joined
+  Quad3 area{};               ///< sum of the area vectors of its triangles
+  std::vector<int> vertices;  ///< sorted
+  int changes = 0;            ///< number of times that it was joined
 };
 
-Part part_of(const FaceLoop& face, const std::vector<Vector3l>& points) {
-  Part part{Vector3l::Zero(), face, 0};
-  const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(face[k])]; };
-  for (std::size_t k = 1; k + 1 < face.size(); ++k) part.area += (at(k) - at(0)).cross(at(k + 1) - at(0));
+Part part_of(const FaceLoop& face, const HullPoints& points) {
+  Part part{{}, face, 0};
+  for (std::size_t k = 1; k + 1 < face.size(); ++k)
+    part.area = part.area + cross(points[face[k]] - points[face[0]], points[face[k + 1]] - points[face[0]]);
   return part;
 }
 
-PartPlane plane_of(const Part& part, const std::vector<Vector3l>& points) {
+PartPlane plane_of(const Part& part, const HullPoints& points) {
   PartPlane plane;
-  for (const int v : part.vertices) plane.point += points[static_cast<std::size_t>(v)];
-  plane.point /= static_cast<long double>(part.vertices.size());
-  plane.normal = part.area.stableNormalized();
+  for (const int v : part.vertices) plane.point = plane.point + points[v];
+  plane.point = (Quad(1) / part.vertices.size()) * plane.point;
+  const Quad size = norm(part.area);
+  if (size > 0) plane.normal = (1 / size) * part.area;
   return plane;
 }
 
-long double largest_distance(const Part& part, const std::vector<Vector3l>& points) {
+Quad largest_distance(const Part& part, const HullPoints& points) {
   const PartPlane plane = plane_of(part, points);
-  long double largest = 0;
+  Quad largest = 0;
   for (const int v : part.vertices) {
-    largest = std::max(largest, std::abs(plane.height(points[static_cast<std::size_t>(v)])));
+    const Quad height = plane.height(points[v]);
+    largest = std::max(largest, height < 0 ? -height : height);
   }
   return largest;
 }
@@ -71,12 +64,10 @@ Part joined(const Part& a, const Part& b) {
 class Joining {
  public:
   Joining(const HullPoints& points, std::span<const HullTriangle> triangles, double tolerance)
-      : triangles_(triangles), tolerance_(tolerance), root_(triangles.size()) {
-    for (int k = 0; k < points.size(); ++k) points_.push_back(narrowed(points[k]));
+      : points_(points), triangles_(triangles), tolerance_(tolerance), root_(triangles.size()) {
     std::iota(root_.begin(), root_.end(), std::size_t{0});
     for (const HullTriangle& t : triangles) {
-      const Vector3l &a = point(t[0]), &b = point(t[1]), &c = point(t[2]);
-      Part part{(b - a).cross(c - a), {t[0], t[1], t[2]}, 0};
+      Part part = part_of({t[0], t[1], t[2]}, points);
       std::sort(part.vertices.begin(), part.vertices.end());
       parts_.push_back(std::move(part));
     }
@@ -101,7 +92,7 @@ class Joining {
  private:
   /// A pair of faces that may be joined, with the numbers of changes at the time of the estimate.
   struct Candidate {
-    long double distance;
+    Quad distance;
     std::size_t a, b;
     int changes;
     bool operator<(const Candidate& other) const {  // the smallest distance is on top of the queue
@@ -109,15 +100,13 @@ class Joining {
     }
   };
 
-  const Vector3l& point(int k) const { return points_[static_cast<std::size_t>(k)]; }
-
   std::size_t find(std::size_t t) const {
     while (root_[t] != t) t = root_[t];
     return t;
   }
 
   void consider(std::size_t a, std::size_t b) {
-    const long double distance = largest_distance(joined(parts_[a], parts_[b]), points_);
+    const Quad distance = largest_distance(joined(parts_[a], parts_[b]), points_);
     if (distance <= tolerance_) queue_.push({distance, a, b, parts_[a].changes + parts_[b].changes});
   }
 
@@ -144,9 +133,9 @@ class Joining {
     }
   }
 
+  const HullPoints& points_;
   std::span<const HullTriangle> triangles_;
-  long double tolerance_;
-  std::vector<Vector3l> points_;
+  Quad tolerance_;
   std::vector<std::size_t> root_;  ///< triangle that represents the face of each triangle, by find()
   std::vector<Part> parts_;        ///< of the representatives
   std::map<std::pair<int, int>, std::size_t> left_of_;  ///< the triangle in which an edge is directed in this way
@@ -214,9 +203,7 @@ void refuse_equal_points(const HullPoints& points, double tolerance) {
 
 void refuse_other_points(const HullPoints& points, std::span<const int> use, std::span<const FaceLoop> faces,
                          double tolerance) {
-  std::vector<Vector3l> all;
-  for (int k = 0; k < points.size(); ++k) all.push_back(narrowed(points[k]));
-  std::vector<bool> is_corner(all.size(), false);
+  std::vector<bool> is_corner(static_cast<std::size_t>(points.size()), false);
   for (const FaceLoop& face : faces) {
     for (const int v : face) is_corner[static_cast<std::size_t>(v)] = true;
   }
@@ -224,7 +211,7 @@ void refuse_other_points(const HullPoints& points, std::span<const int> use, std
     const auto k = static_cast<std::size_t>(index);
     if (is_corner[k]) continue;
     const auto faces_at = std::count_if(faces.begin(), faces.end(), [&](const FaceLoop& face) {
-      return plane_of(part_of(face, all), all).height(all[k]) >= -tolerance;
+      return plane_of(part_of(face, points), points).height(points[index]) >= -tolerance;
     });
     const char* where = faces_at >= 2 ? "on an edge of" : faces_at == 1 ? "on a face of" : "inside";
     throw NoSolid("vertex " + std::to_string(k) + " is not a corner of the convex hull: it lies " + where +

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "engine/geometry/double_double.hpp"
 
 namespace isojam {
@@ -53,19 +54,25 @@ inline QuadMatrix operator*(const QuadMatrix& m, const QuadMatrix& n) {
   return transposed({m * columns[0], m * columns[1], m * columns[2]});
 }
 
-/// Computes √x by std::sqrt for long double and one step of Newton's method, which doubles the number of correct
+/// Computes √x by two steps of Newton's method from the double nearest to √x. Each step doubles the number of correct
 /// digits. Returns 0 if x ≤ 0, and NaN if x is NaN.
 inline Quad square_root(Quad x) {
   if (x <= 0) return 0;
-  const Quad guess = std::sqrt(static_cast<long double>(x));
-  return (guess + x / guess) / 2;
+  if (x > 0x1p900 && x / 0x1p900 < x) return 0x1p450 * square_root(x / 0x1p900);
+  if (x < 0x1p-900) return 0x1p-450 * square_root(0x1p900 * x);
+  const double guess = std::sqrt(static_cast<double>(x));
+  const Quad root = (guess + x / guess) / 2;
+  return (root + x / root) / 2;
 }
 
-/// Computes ∛x in the same way, with std::cbrt.
+/// Computes ∛x in the same way.
 inline Quad cube_root(Quad x) {
-  if (x == 0) return 0;
-  const Quad guess = std::cbrt(static_cast<long double>(x));
-  return guess - (guess - x / (guess * guess)) / 3;
+  if (x <= 0) return x < 0 ? -cube_root(-x) : 0;
+  if (x > 0x1p900 && x / 0x1p900 < x) return 0x1p300 * cube_root(x / 0x1p900);
+  if (x < 0x1p-900) return 0x1p-300 * cube_root(0x1p900 * x);
+  Quad root = nearest::cbrt(static_cast<double>(x));
+  for (int k = 0; k < 2; ++k) root = root - (root - x / (root * root)) / 3;
+  return root;
 }
 
 inline Quad norm(const Quad3& p) { return square_root(dot(p, p)); }  ///< |p|

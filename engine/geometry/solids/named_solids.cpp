@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <numbers>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "engine/geometry/convex_solid.hpp"
 
 namespace isojam {
@@ -113,20 +113,24 @@ std::vector<Quad3> truncated_cube() {
   return points;
 }
 
-/// The point of the unit circle at the angle 2π k/n. One step of Newton's method on z^n = 1 doubles the digits of the
+/// The point of the unit circle at the angle 2π k/n. Each step of Newton's method on z^n = 1 doubles the digits of the
 /// guess.
 std::array<Quad, 2> root_of_unity(int k, int n) {
-  const long double angle = 2 * std::numbers::pi_v<long double> * k / n;
-  Quad x = std::cos(angle), y = std::sin(angle);
-  Quad px = 1, py = 0;  // z^(n − 1)
-  for (int power = 1; power < n; ++power) {
-    const Quad next = px * x - py * y;
-    py = px * y + py * x;
-    px = next;
+  const double angle = 2 * std::numbers::pi * k / n;
+  Quad x = nearest::cos(angle), y = nearest::sin(angle);
+  for (int step = 0; step < 2; ++step) {
+    Quad px = 1, py = 0;  // z^(n − 1)
+    for (int power = 1; power < n; ++power) {
+      const Quad next = px * x - py * y;
+      py = px * y + py * x;
+      px = next;
+    }
+    // z − (z^n − 1)/(n z^(n−1)), where 1/z^(n−1) is the conjugate of z^(n−1) because |z| = 1.
+    const Quad fx = px * x - py * y - 1, fy = px * y + py * x;
+    x = x - (fx * px + fy * py) / n;
+    y = y - (fy * px - fx * py) / n;
   }
-  // z − (z^n − 1)/(n z^(n−1)), where 1/z^(n−1) is the conjugate of z^(n−1) because |z| = 1.
-  const Quad fx = px * x - py * y - 1, fy = px * y + py * x;
-  return {x - (fx * px + fy * py) / n, y - (fy * px - fx * py) / n};
+  return {x, y};
 }
 
 /// Vertices of a regular n-gon at a height. `turned` = 1 rotates it by half the angle between neighbours; 0 does not.
