@@ -219,7 +219,7 @@ package:
 	rm -rf $(PACKAGES) && mkdir -p $(PACKAGES)/wheel
 	git archive --prefix=$(ARCHIVE)/ HEAD | gzip -9n >$(PACKAGES)/$(ARCHIVE).tar.gz
 	cd $(PACKAGES) && sha256sum $(ARCHIVE).tar.gz >$(ARCHIVE).tar.gz.sha256 && tar -xzf $(ARCHIVE).tar.gz
-	cmake -S $(PACKAGES)/$(ARCHIVE) -B $(PACKAGES)/build -G Ninja -DISOJAM_PORTABLE=ON -DISOJAM_TESTS=OFF \
+	cmake -S $(PACKAGES)/$(ARCHIVE) -B $(PACKAGES)/build -G Ninja -DISOJAM_PACKAGE=ON -DISOJAM_TESTS=OFF \
 	  -DISOJAM_PYTHON_DIR=lib/python3/dist-packages $(OPTIONS)
 	cmake --build $(PACKAGES)/build -j $(JOBS)
 	cpack --config $(PACKAGES)/build/CPackConfig.cmake -B $(PACKAGES)

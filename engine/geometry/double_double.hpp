@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "engine/arithmetic/fma.hpp"
+
 namespace isojam {
 
 /// A double-double: a number that is stored as the sum high + low of two doubles, where `high` is the double nearest to
@@ -36,7 +38,7 @@ inline DoubleDouble two_sum(double a, double b) {
 /// The exact product a·b, unless it underflows.
 inline DoubleDouble two_product(double a, double b) {
   const double product = a * b;
-  return {product, std::fma(a, b, -product)};
+  return {product, fma(a, b, -product)};
 }
 
 inline DoubleDouble operator-(const DoubleDouble& a) { return {-a.high, -a.low}; }  ///< the exact negative −a

@@ -138,7 +138,7 @@ ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   for (const auto& [name, why] : found.impossible)
     console.warn(fmt::format("{}: {}; \"isojam run\" recomputes this replicate", name, why));
   say_nearest_only(found, console);
-  warn_about_kernels(console);
+  warn_without_fma(console);
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   if (const auto records = found.measured.size() + found.failed.size(); records > 0)
     console.info(fmt::format("{}: adding measures to {}", manifest.name, counted(records, "record")));

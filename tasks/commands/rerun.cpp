@@ -41,7 +41,7 @@ void print_verdict(const std::string& name, const std::optional<RecordSummary>& 
 
 ExitCode redo(const RerunArguments& arguments, const Store& store, const ReplicateSpec& spec, Console& console) {
   const InterruptWatcher watcher;
-  warn_about_kernels(console);
+  warn_without_fma(console);
   const auto before = store.recorded(spec);
 
   GraphOptions options{arguments.threads, 1, watcher.token(), [&](const ReplicateSpec& which, const Checkpoint& step) {

@@ -269,7 +269,7 @@ ExitCode run(const RunArguments& arguments, Console& console) {
     return dry_run(manifest, plan, directory, arguments);
   }
 
-  warn_about_kernels(console);
+  warn_without_fma(console);
   const auto lock = lock_results(directory, DirectoryLock::Kind::shared);
   const Store store(directory, manifest, [&](const std::string& message) { console.warn(message); });
   Campaign campaign(plan, manifest.replicates, arguments.shard, store);

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "engine/geometry/overlap/overlap.hpp"
+#include "engine/arithmetic/fma.hpp"
 #include "tasks/io/place.hpp"
 #include "tasks/io/standard_streams.hpp"
 #include "tasks/io/usage_error.hpp"
@@ -33,11 +33,11 @@ std::string definitions_text(const Manifest& manifest) {
   return text;
 }
 
-void warn_about_kernels(Console& console) {
-  if (!uses_avx2())
+void warn_without_fma(Console& console) {
+  if (!has_fma())
     console.warn(
-        "this processor, or this build of isojam, does not have both AVX2 and FMA; the program is about five times "
-        "slower, with the same results; build it on a machine with AVX2 and FMA");
+        "this processor has no fused multiply-add (FMA), so the program is more than 25 times slower, with the "
+        "same results; use a processor from 2013 or later");
 }
 
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress) {

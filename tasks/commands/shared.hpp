@@ -17,8 +17,8 @@ void warn_about(const Manifest& manifest, const std::string& file, Console& cons
 /// One line for each user-defined solid, see definition_text().
 std::string definitions_text(const Manifest& manifest);
 
-/// Prints a warning if the processor or the build does not have both AVX2 and FMA, because the program is then slower.
-void warn_about_kernels(Console& console);
+/// Prints a warning if the processor has no fused multiply-add, because the program is then slower.
+void warn_without_fma(Console& console);
 
 /// One line of text about the latest strain step of a replicate.
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress);

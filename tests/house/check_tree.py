@@ -25,7 +25,7 @@ FOLDERS = "names arithmetic random parallel geometry packing solve analysis vibr
 TOP = set("engine tasks schemas tests examples docs CMakeLists.txt CMakePresets.json Containerfile Makefile README.md "
           "LICENSE CITATION.cff CHANGELOG.md CONTRIBUTING.md .ci .git .gitignore .clang-format .clang-tidy".split())
 NOT_IN_HEADERS = re.compile(r'[<"](tbb|oneapi|CLI)/|<execution>|<metis\.h>')
-LIBRARIES = re.compile(r"<(Eigen|Spectra|boost/math|tbb|oneapi)/|<(metis|quadmath|immintrin)\.h>|"
+LIBRARIES = re.compile(r"<(Eigen|Spectra|boost/math|tbb|oneapi)/|<(metis|immintrin|arm_neon)\.h>|"
                        r"<boost/multiprecision/cpp_bin_float\.hpp>")
 BANNED_HEADERS = set("filesystem chrono ctime fstream iostream istream ostream sstream syncstream cstdio iomanip "
                      "execution".split())

@@ -16,7 +16,7 @@ GOOD = {
     "engine/geometry/pose.hpp": "#pragma once\n#include <Eigen/Core>\n#include <vector>\n#include <immintrin.h>\n",
     "engine/parallel/parallel.cpp": '#include <tbb/parallel_for.h>\n#include "engine/random/stream.hpp"\n',
     "engine/solve/factor/ordering.cpp": "#include <metis.h>\n#include <Spectra/SymEigsSolver.h>\n"
-                                        "#include <boost/math/tools/roots.hpp>\n#include <quadmath.h>\n",
+                                        "#include <boost/math/tools/roots.hpp>\n#include <arm_neon.h>\n",
     "engine/solve/jam.cpp": '#include "engine/packing/energy.hpp"\n// #include <chrono>\n',
     "engine/CMakeLists.txt": "# include\n",
     "tasks/run/graph.cpp": '#include <oneapi/tbb/flow_graph.h>\n#include <chrono>\n#include "engine/solve/jam.hpp"\n',

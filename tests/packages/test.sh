@@ -14,7 +14,7 @@ for root in "$@"; do
   copy=$scratch/$(basename "$root")
   cp -a "$root" "$copy"
   mkdir "$copy/packages"
-  cp "$packages"/isojam_*.deb "$packages"/isojam-*-linux-x86_64.tar.gz "$here/inside.sh" \
+  cp "$packages"/isojam_*_amd64.deb "$packages"/isojam-*-linux-x86_64.tar.gz "$here/inside.sh" \
     "$here/../reproducibility/quick.json" "$copy/packages"
   echo "== $root: $(. "$copy/etc/os-release" && echo "$PRETTY_NAME")"
   "$here/../debian/root.sh" run "$copy" bash /packages/inside.sh

@@ -30,11 +30,10 @@ class Isojam(CMakePackage):
 
     extends("python")
     generator("ninja")
-    requires("target=x86_64:", msg="isojam runs on x86-64 alone")
+    requires("target=x86_64:", "target=aarch64:", policy="one_of", msg="isojam runs on x86-64 and on arm64")
 
     def cmake_args(self):
-        # Vega and three.js are no packages of Spack, so `report` and `chart` are left out. Spack compiles for one
-        # processor, so the engine needs no variants.
+        # Vega and three.js are no packages of Spack, so `report` and `chart` are left out.
         return [
             self.define("ISOJAM_TESTS", False),
             self.define("ISOJAM_PAGES", False),

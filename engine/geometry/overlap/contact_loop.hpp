@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "engine/arithmetic/lanes.hpp"
 #include "engine/geometry/overlap/distances.hpp"
-#include "engine/geometry/overlap/lanes.hpp"
 #include "engine/geometry/overlap/separating_axis.hpp"
 #include "engine/geometry/placed_solid.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/geometry/overlap/lanes.hpp"
+#include "engine/arithmetic/lanes.hpp"
 
 // Two passes over the segments: the terms are computed for four segments at a time, one per lane; then they are added
 // one after the other.

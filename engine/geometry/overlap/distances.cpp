@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cstring>
 
-#include "engine/geometry/overlap/lanes.hpp"
+#include "engine/arithmetic/lanes.hpp"
 
 namespace isojam {
 

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "engine/arithmetic/lanes.hpp"
 #include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/geometry/overlap/contact_loop.hpp"
 #include "engine/geometry/overlap/cross_hessian.hpp"
-#include "engine/geometry/overlap/lanes.hpp"
 #include "engine/geometry/overlap/own_hessians.hpp"
 #include "engine/geometry/overlap/small_corners.hpp"
 
@@ -144,14 +144,6 @@ Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacemen
 }
 
 }  // namespace
-
-bool uses_avx2() {
-#ifdef ISOJAM_AVX2
-  return true;
-#else
-  return false;
-#endif
-}
 
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
   return overlap_at(a, b, r, axis, nullptr);

@@ -10,10 +10,7 @@
 
 namespace isojam {
 
-/// True if this build of the engine uses AVX2 and FMA. Without these instructions, results have the same bits, but
-/// computations take about five times longer.
-bool uses_avx2();
-// Variants for other processors have the same headers, so the layout of Eigen's types may not depend on the processor.
+// The layout of Eigen's types in the engine and in the program that links it must be the same.
 static_assert(EIGEN_MAX_ALIGN_BYTES == 0, "compile with EIGEN_DONT_VECTORIZE, as isojam::engine requires");
 
 /// Algorithm that computed an overlap. separated: a separating axis or distance showed that the solids do not touch.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/geometry/overlap/lanes.hpp"
+#include "engine/arithmetic/lanes.hpp"
 
 // The formula of OverlapHessian in blocks of 3×3, one column per register, without a loop over 36 numbers. It has the
 // same bits as the plain formula in matrices.

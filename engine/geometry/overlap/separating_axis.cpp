@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/geometry/overlap/lanes.hpp"
+#include "engine/arithmetic/lanes.hpp"
 
 namespace isojam {
 

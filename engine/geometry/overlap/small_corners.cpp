@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/geometry/overlap/lanes.hpp"
+#include "engine/arithmetic/lanes.hpp"
 #include "engine/geometry/overlap/small_distances.hpp"
 
 // A corner lies on an edge p → q at p + t (q − p), where t = d_p/(d_p − d_q) follows from the distances of p and q from

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/geometry/overlap/lanes.hpp"
+#include "engine/arithmetic/lanes.hpp"
 
 namespace isojam {
 

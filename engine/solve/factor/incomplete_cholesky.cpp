@@ -8,7 +8,7 @@ namespace isojam {
 namespace {
 
 // Vectors have eight lanes even if the processor has only shorter ones: a lane is a row, so no sum depends on the
-// length. The products are not fused multiply-adds, for which the portable build would call the C library.
+// length. The products are not fused multiply-adds, which some x86-64 processors lack.
 constexpr int lanes = 8;
 using Floats = float __attribute__((vector_size(lanes * sizeof(float))));
 using Doubles = double __attribute__((vector_size(lanes * sizeof(double))));

@@ -2,22 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
-#ifdef __FMA__
-#include <immintrin.h>
-#endif
+#include "engine/arithmetic/lanes.hpp"
 
 namespace isojam::panels {
 
 namespace {
 
-// Vectors have four lanes even if the processor has only shorter ones. Sums over lanes then have the same order
-// everywhere.
 constexpr int lanes = 4;
 constexpr int vectors = height / lanes;
-using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
 
 /// Number of columns that are processed together. They have twelve rows each, which leaves registers for the factors.
 constexpr int step = 3;
@@ -32,32 +26,24 @@ struct Tile {
 
 inline void load(const double* from, Lanes (&column)[vectors]) {
 #pragma GCC unroll 6
-  for (int v = 0; v < vectors; ++v) std::memcpy(&column[v], from + lanes * v, sizeof(Lanes));
+  for (int v = 0; v < vectors; ++v) column[v] = Lanes::load(from + lanes * v);
 }
 
 inline void store(const Lanes (&column)[vectors], double* to) {
 #pragma GCC unroll 6
-  for (int v = 0; v < vectors; ++v) std::memcpy(to + lanes * v, &column[v], sizeof(Lanes));
+  for (int v = 0; v < vectors; ++v) column[v].store(to + lanes * v);
 }
 
-#ifdef __FMA__
-inline Lanes spread(double b) { return _mm256_set1_pd(b); }
-/// c −= a·b, rounded once.
-inline void subtract_product(const Lanes& a, const Lanes& b, Lanes& c) { c = _mm256_fnmadd_pd(a, b, c); }
+/// Computes c −= a·b, rounded once.
+inline void subtract_product(const Lanes& a, const Lanes& b, Lanes& c) { c = fma(a, -b, c); }
+
 /// Keeps a value in its register. Otherwise the compiler would load it from memory at every use, and loads would become
 /// the bottleneck.
-inline void keep(Lanes& value) { asm("" : "+x"(value)); }
-#else
-inline Lanes spread(double b) {
-  Lanes all = {};
-  for (int lane = 0; lane < lanes; ++lane) all[lane] = b;
-  return all;
-}
-inline void subtract_product(const Lanes& a, const Lanes& b, Lanes& c) {
-  for (int lane = 0; lane < lanes; ++lane) c[lane] = std::fma(-a[lane], b[lane], c[lane]);
-}
-inline void keep(Lanes& /*value*/) {}
+inline void keep([[maybe_unused]] Lanes& value) {
+#ifdef ISOJAM_AVX2
+  asm("" : "+x"(value.v));
 #endif
+}
 
 /// Computes tile −= A Bᵀ. A is the first `depth` columns of a panel, and B is the same columns of `step` rows of a
 /// panel.
@@ -70,7 +56,7 @@ inline void subtract_product(const double* a, const double* b, int depth, Tile& 
     for (int v = 0; v < vectors; ++v) keep(column[v]);
 #pragma GCC unroll 3
     for (int j = 0; j < step; ++j) {
-      const Lanes factor = spread(b[j]);
+      const Lanes factor = Lanes::all(b[j]);
 #pragma GCC unroll 6
       for (int v = 0; v < vectors; ++v) subtract_product(column[v], factor, tile.of[j][v]);
     }
@@ -99,10 +85,10 @@ inline void solve_step(const double* l, const double* reciprocals, Tile& x) {
 #pragma GCC unroll 3
     for (int j = 0; j < k; ++j) {
 #pragma GCC unroll 6
-      for (int v = 0; v < vectors; ++v) subtract_product(x.of[j][v], spread(l[height * j + k]), x.of[k][v]);
+      for (int v = 0; v < vectors; ++v) subtract_product(x.of[j][v], Lanes::all(l[height * j + k]), x.of[k][v]);
     }
 #pragma GCC unroll 6
-    for (int v = 0; v < vectors; ++v) x.of[k][v] *= reciprocals[k];
+    for (int v = 0; v < vectors; ++v) x.of[k][v] = x.of[k][v] * Lanes::all(reciprocals[k]);
   }
 }
 
@@ -184,7 +170,7 @@ inline void subtract_columns(const double* panel, int depth, const double* z, La
   for (int k = 0; k < depth; ++k, panel += height) {
     Lanes term[vectors];
     load(panel, term);
-    for (int v = 0; v < vectors; ++v) subtract_product(term[v], spread(z[k]), column[v]);
+    for (int v = 0; v < vectors; ++v) subtract_product(term[v], Lanes::all(z[k]), column[v]);
   }
 }
 
@@ -286,7 +272,9 @@ void subtract_transposed(const double* x, int width, int count, const double* y,
       }
     }
     for (int j = 0; j < columns; ++j) {
-      for (int lane = 0; lane < lanes; ++lane) z[k + j] += sums[j][lane];
+      double parts[lanes];
+      sums[j].store(parts);
+      for (const double part : parts) z[k + j] += part;
     }
   }
 }

@@ -45,7 +45,7 @@ ExitCode chart(const ChartArguments& arguments, Console& console) {
   const std::filesystem::path directory = arguments.directory;
   make_directory(directory);
   const InterruptWatcher watcher;
-  warn_about_kernels(console);
+  warn_without_fma(console);
   // The files are written after each part, because the watcher ends a process that does not stop in time.
   const auto result = run_chart(config, watcher.token(), console,
                                 [&](const ChartResult& so_far) { written(config, so_far, directory); });

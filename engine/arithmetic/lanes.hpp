@@ -3,17 +3,23 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
-#if defined(__AVX2__) && defined(__FMA__)
+#include "engine/arithmetic/fma.hpp"
+
+#ifdef __aarch64__
+#include <arm_neon.h>
+#else
 #include <immintrin.h>
+#endif
+#if defined(__AVX2__) && defined(__FMA__)
 #define ISOJAM_AVX2 1
 #endif
 
 namespace isojam {
 
-/// Four doubles (lanes). If the build uses AVX2 and FMA, they are in one vector register. Otherwise the portable
-/// version below is used. It gives the same bits, but it is much slower if the compiler translates std::fma to a call
-/// of the C library.
+/// Four doubles (lanes): one vector of 256 bits if the build uses AVX2 and FMA, otherwise two vectors of 128 bits. Both
+/// versions give the same bits.
 #ifdef ISOJAM_AVX2
 
 struct Lanes {
@@ -32,6 +38,7 @@ struct Lanes {
 
 inline Lanes operator+(Lanes a, Lanes b) { return {_mm256_add_pd(a.v, b.v)}; }
 inline Lanes operator-(Lanes a, Lanes b) { return {_mm256_sub_pd(a.v, b.v)}; }
+inline Lanes operator-(Lanes a) { return {-a.v}; }
 inline Lanes operator*(Lanes a, Lanes b) { return {_mm256_mul_pd(a.v, b.v)}; }
 inline Lanes operator/(Lanes a, Lanes b) { return {_mm256_div_pd(a.v, b.v)}; }
 inline Lanes fma(Lanes a, Lanes b, Lanes c) { return {_mm256_fmadd_pd(a.v, b.v, c.v)}; }
@@ -96,100 +103,112 @@ inline std::uint32_t equal_unions(std::uint64_t bytes, const std::uint8_t* tail,
 
 #else
 
-struct Lanes {
-  double v[4];
+/// Two doubles in a vector of 128 bits, which SSE2 and NEON have, and two integers of 64 bits.
+using TwoLanes = double __attribute__((vector_size(16)));
+using TwoMasks = decltype(TwoLanes{} < TwoLanes{});
 
-  static Lanes load(const double* p) { return {{p[0], p[1], p[2], p[3]}}; }
-  static Lanes load(const std::uint64_t* p) {
-    return {{std::bit_cast<double>(p[0]), std::bit_cast<double>(p[1]), std::bit_cast<double>(p[2]),
-             std::bit_cast<double>(p[3])}};
-  }
-  static Lanes all(double x) { return {{x, x, x, x}}; }
-  static Lanes of(double x, double y, double z, double w) { return {{x, y, z, w}}; }
-  void store(double* p) const {
-    for (int k = 0; k < 4; ++k) p[k] = v[k];
-  }
-  double first() const { return v[0]; }
+inline TwoLanes loaded_two(const void* p) {
+  TwoLanes pair;
+  std::memcpy(&pair, p, sizeof(pair));
+  return pair;
+}
+[[gnu::cold, gnu::noinline]] inline TwoLanes fma_in_software(TwoLanes a, TwoLanes b, TwoLanes c) {
+  return TwoLanes{std::fma(a[0], b[0], c[0]), std::fma(a[1], b[1], c[1])};
+}
+inline TwoMasks bits(TwoLanes a) { return reinterpret_cast<TwoMasks>(a); }
+inline TwoLanes of_bits(TwoMasks a) { return reinterpret_cast<TwoLanes>(a); }
+#ifdef __aarch64__
+inline TwoLanes fma(TwoLanes a, TwoLanes b, TwoLanes c) { return vfmaq_f64(c, a, b); }
+inline TwoLanes square_root(TwoLanes a) { return vsqrtq_f64(a); }
+inline unsigned sign_bits(TwoLanes a) { return static_cast<unsigned>((bits(a)[0] < 0) | (bits(a)[1] < 0) << 1); }
+/// All bits of an element are those of the sign bit of s.
+inline TwoMasks sign_mask(TwoLanes s) { return bits(s) >> 63; }
+#else
+[[gnu::always_inline]] inline TwoLanes fma(TwoLanes a, TwoLanes b, TwoLanes c) {
+  if (!has_fma()) [[unlikely]]
+    return fma_in_software(a, b, c);
+  asm volatile("vfmadd213pd %2, %1, %0" : "+x"(a) : "x"(b), "xm"(c));
+  return a;
+}
+inline TwoLanes square_root(TwoLanes a) { return _mm_sqrt_pd(a); }
+inline unsigned sign_bits(TwoLanes a) { return static_cast<unsigned>(_mm_movemask_pd(a)); }
+inline TwoMasks sign_mask(TwoLanes s) {
+  return reinterpret_cast<TwoMasks>(_mm_shuffle_epi32(_mm_srai_epi32(reinterpret_cast<__m128i>(s), 31), 0b11110101));
+}
+#endif
+inline TwoLanes where_negative(TwoLanes s, TwoLanes a, TwoLanes b) {
+  return of_bits((sign_mask(s) & bits(a)) | (~sign_mask(s) & bits(b)));
+}
+/// Element i of (a, b) and then element j, numbered from 0 to 3.
+template <int i, int j>
+TwoLanes chosen(TwoLanes a, TwoLanes b) {
+  return __builtin_shufflevector(a, b, i, j);
+}
+
+struct Lanes {
+  TwoLanes low, high;
+
+  static Lanes load(const double* p) { return {loaded_two(p), loaded_two(p + 2)}; }
+  static Lanes load(const std::uint64_t* p) { return {loaded_two(p), loaded_two(p + 2)}; }
+  static Lanes all(double x) { return {TwoLanes{x, x}, TwoLanes{x, x}}; }
+  static Lanes of(double x, double y, double z, double w) { return {TwoLanes{x, y}, TwoLanes{z, w}}; }
+  void store(double* p) const { std::memcpy(p, this, sizeof(*this)); }
+  double first() const { return low[0]; }
 };
 
-template <class Function>
-Lanes each(const Function& function) {
-  return {{function(0), function(1), function(2), function(3)}};
+inline Lanes operator+(Lanes a, Lanes b) { return {a.low + b.low, a.high + b.high}; }
+inline Lanes operator-(Lanes a, Lanes b) { return {a.low - b.low, a.high - b.high}; }
+inline Lanes operator-(Lanes a) { return {-a.low, -a.high}; }
+inline Lanes operator*(Lanes a, Lanes b) { return {a.low * b.low, a.high * b.high}; }
+inline Lanes operator/(Lanes a, Lanes b) { return {a.low / b.low, a.high / b.high}; }
+[[gnu::always_inline]] inline Lanes fma(Lanes a, Lanes b, Lanes c) {
+  return {fma(a.low, b.low, c.low), fma(a.high, b.high, c.high)};
 }
-
-inline Lanes operator+(Lanes a, Lanes b) {
-  return each([&](int k) { return a.v[k] + b.v[k]; });
-}
-inline Lanes operator-(Lanes a, Lanes b) {
-  return each([&](int k) { return a.v[k] - b.v[k]; });
-}
-inline Lanes operator*(Lanes a, Lanes b) {
-  return each([&](int k) { return a.v[k] * b.v[k]; });
-}
-inline Lanes operator/(Lanes a, Lanes b) {
-  return each([&](int k) { return a.v[k] / b.v[k]; });
-}
-inline Lanes fma(Lanes a, Lanes b, Lanes c) {
-  return each([&](int k) { return std::fma(a.v[k], b.v[k], c.v[k]); });
-}
-inline Lanes fma_minus(Lanes a, Lanes b, Lanes c) {
-  return each([&](int k) { return std::fma(a.v[k], b.v[k], -c.v[k]); });
-}
-inline Lanes min(Lanes a, Lanes b) {
-  return each([&](int k) { return a.v[k] < b.v[k] ? a.v[k] : b.v[k]; });
-}
-inline Lanes max(Lanes a, Lanes b) {
-  return each([&](int k) { return a.v[k] > b.v[k] ? a.v[k] : b.v[k]; });
-}
-inline Lanes absolute(Lanes a) {
-  return each([&](int k) { return std::abs(a.v[k]); });
-}
-inline Lanes where_negative(Lanes s, Lanes a, Lanes b) {
-  return each([&](int k) { return std::signbit(s.v[k]) ? a.v[k] : b.v[k]; });
-}
-inline Lanes equal(Lanes a, Lanes b) {
-  return each([&](int k) { return a.v[k] == b.v[k] ? -1.0 : 1.0; });
-}
-inline Lanes halves(Lanes a, Lanes b) { return {{a.v[0], a.v[1], b.v[2], b.v[3]}}; }
-inline Lanes without_fourth(Lanes a) { return {{a.v[0], a.v[1], a.v[2], 0}}; }
-inline unsigned sign_bits(Lanes a) {
-  unsigned bits = 0;
-  for (int k = 0; k < 4; ++k) bits |= unsigned{std::signbit(a.v[k])} << k;
-  return bits;
-}
+[[gnu::always_inline]] inline Lanes fma_minus(Lanes a, Lanes b, Lanes c) { return fma(a, b, -c); }
+inline Lanes min(Lanes a, Lanes b) { return {a.low < b.low ? a.low : b.low, a.high < b.high ? a.high : b.high}; }
+inline Lanes max(Lanes a, Lanes b) { return {a.low > b.low ? a.low : b.low, a.high > b.high ? a.high : b.high}; }
 inline Lanes operator&(Lanes a, Lanes b) {
-  return each([&](int k) {
-    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(a.v[k]) & std::bit_cast<std::uint64_t>(b.v[k]));
-  });
+  return {of_bits(bits(a.low) & bits(b.low)), of_bits(bits(a.high) & bits(b.high))};
 }
 inline Lanes operator|(Lanes a, Lanes b) {
-  return each([&](int k) {
-    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(a.v[k]) | std::bit_cast<std::uint64_t>(b.v[k]));
-  });
+  return {of_bits(bits(a.low) | bits(b.low)), of_bits(bits(a.high) | bits(b.high))};
 }
+inline Lanes absolute(Lanes a) { return a & Lanes::all(std::bit_cast<double>(~std::uint64_t{0} >> 1)); }
+inline Lanes where_negative(Lanes s, Lanes a, Lanes b) {
+  return {where_negative(s.low, a.low, b.low), where_negative(s.high, a.high, b.high)};
+}
+inline Lanes equal(Lanes a, Lanes b) { return {of_bits(a.low == b.low), of_bits(a.high == b.high)}; }
+inline Lanes halves(Lanes a, Lanes b) { return {a.low, b.high}; }
+inline Lanes without_fourth(Lanes a) { return {a.low, chosen<0, 2>(a.high, TwoLanes{})}; }
+inline unsigned sign_bits(Lanes a) { return sign_bits(a.low) | sign_bits(a.high) << 2; }
 inline void transpose(const double* p, const double* q, const double* r, const double* s, Lanes& x, Lanes& y,
                       Lanes& z) {
-  x = Lanes::of(p[0], q[0], r[0], s[0]), y = Lanes::of(p[1], q[1], r[1], s[1]), z = Lanes::of(p[2], q[2], r[2], s[2]);
+  const Lanes a = Lanes::load(p), b = Lanes::load(q), c = Lanes::load(r), d = Lanes::load(s);
+  x = {chosen<0, 2>(a.low, b.low), chosen<0, 2>(c.low, d.low)};
+  y = {chosen<1, 3>(a.low, b.low), chosen<1, 3>(c.low, d.low)};
+  z = {chosen<0, 2>(a.high, b.high), chosen<0, 2>(c.high, d.high)};
 }
 inline void rows_of(Lanes x, Lanes y, Lanes z, Lanes* rows) {
-  for (int k = 0; k < 4; ++k) rows[k] = Lanes::of(x.v[k], y.v[k], z.v[k], 0);
+  rows[0] = {chosen<0, 2>(x.low, y.low), chosen<0, 2>(z.low, TwoLanes{})};
+  rows[1] = {chosen<1, 3>(x.low, y.low), chosen<1, 3>(z.low, TwoLanes{})};
+  rows[2] = {chosen<0, 2>(x.high, y.high), chosen<0, 2>(z.high, TwoLanes{})};
+  rows[3] = {chosen<1, 3>(x.high, y.high), chosen<1, 3>(z.high, TwoLanes{})};
 }
-inline Lanes square_root(Lanes a) {
-  return each([&](int k) { return std::sqrt(a.v[k]); });
-}
-inline Lanes yzx(Lanes a) { return {{a.v[1], a.v[2], a.v[0], a.v[3]}}; }
-inline Lanes yzwx(Lanes a) { return {{a.v[1], a.v[2], a.v[3], a.v[0]}}; }
-inline Lanes swapped_pairs(Lanes a) { return {{a.v[1], a.v[0], a.v[3], a.v[2]}}; }
-inline Lanes swapped_halves(Lanes a) { return {{a.v[2], a.v[3], a.v[0], a.v[1]}}; }
+inline Lanes square_root(Lanes a) { return {square_root(a.low), square_root(a.high)}; }
+inline Lanes yzx(Lanes a) { return {chosen<1, 2>(a.low, a.high), chosen<0, 3>(a.low, a.high)}; }
+inline Lanes yzwx(Lanes a) { return {chosen<1, 2>(a.low, a.high), chosen<1, 2>(a.high, a.low)}; }
+inline Lanes swapped_pairs(Lanes a) { return {chosen<1, 0>(a.low, a.low), chosen<1, 0>(a.high, a.high)}; }
+inline Lanes swapped_halves(Lanes a) { return {a.high, a.low}; }
 template <int k>
 Lanes lane(Lanes a) {
-  return Lanes::all(a.v[k]);
+  return Lanes::all((k < 2 ? a.low : a.high)[k % 2]);
 }
 inline std::uint32_t equal_unions(std::uint64_t bytes, const std::uint8_t* tail, const std::uint8_t* head,
                                   std::uint32_t all) {
+  std::uint8_t of[8];
+  std::memcpy(of, &bytes, sizeof(of));
   std::uint32_t same = 0;
-  for (int e = 0; e < 16; ++e)
-    same |= std::uint32_t{((bytes >> 8 * tail[e] | bytes >> 8 * head[e]) & 0xFF) == all} << e;
+  for (int e = 0; e < 16; ++e) same |= std::uint32_t{(of[tail[e]] | of[head[e]]) == all} << e;
   return same;
 }
 
