@@ -128,6 +128,24 @@ percolation: build
 	@$(PYTHON) -B examples/percolation/gather.py $(BUILD)/isojam results results/percolation/records.json $(addprefix percolation-,$(PERCOLATION))
 	$(call page,percolation,results/percolation/records.json)
 
+# A cross build for arm64. Its libraries are Debian's packages, unpacked in a folder: nothing of them is installed.
+ARM64 = $(abspath $(BUILD)-arm64)
+ON_ARM64 = qemu-aarch64 -L $(ARM64)/root
+FOR_ARM64 = -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++ \
+            -DCMAKE_SYSROOT=$(ARM64)/root '-DCMAKE_CROSSCOMPILING_EMULATOR=qemu-aarch64;-L;$(ARM64)/root' \
+            $(foreach kind,LIBRARY INCLUDE PACKAGE,-DCMAKE_FIND_ROOT_PATH_MODE_$(kind)=ONLY) \
+            -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER
+ONLY_STUDIES = -DISOJAM_TESTS=OFF -DISOJAM_EXTRAS=OFF
+APT_ARM64 = apt-get -q -y -o APT::Architecture=arm64 -o APT::Architectures=arm64 -o APT::Install-Recommends=false \
+            -o APT::Sandbox::User=root -o Dir::State=$@.apt -o Dir::State::status=/dev/null -o Dir::Cache=$@.apt
+$(ARM64)/root:
+	$(call install,g++-aarch64-linux-gnu qemu-user)
+	mkdir -p $@.apt/archives/partial $@.part
+	$(APT_ARM64) update
+	$(APT_ARM64) install --download-only g++ libgtest-dev $(filter lib% nlohmann%,$(PROGRAM_PACKAGES))
+	for package in $@.apt/archives/*.deb; do dpkg -x $$package $@.part || exit 1; done
+	rm -rf $@.apt && mv $@.part $@
+
 # All that `run` and `test` install, and nothing else: for the layer of an image.
 .PHONY: packages
 packages:
@@ -167,26 +185,32 @@ extending:
 	$(call install,$(PROGRAM_PACKAGES) python3 python3-numpy python3-pandas)
 	$(PYTHON) -B tests/docs/extending.py . $(BUILD)-extending
 
-# The same bytes from g++ and clang, with and without AVX2: three more builds, in folders of their own. As root also the
-# build of Debian 13, whose loader runs it here with the libraries of its own root.
+# The same bytes from g++ and clang, with AVX2 and for every x86-64 processor, and from arm64, in folders of their own. An
+# emulator runs arm64, with the tests of arithmetic, overlaps and factorisations, and a processor without FMA. As root also
+# the build of Debian 13, whose loader runs it here with the libraries of its own root.
 REPRODUCIBLE = tests/reproducibility
+WITHOUT_FMA  = qemu-x86_64 -cpu Nehalem
+FACTOR_TESTS = *Cholesky*:DefiniteSolver*:Elimination*:FactorThreads*:LowRankUpdate*:ShiftInvert*
 .PHONY: reproducibility
-reproducibility: build
+reproducibility: build $(ARM64)/root
 	$(call install,$(PROGRAM_PACKAGES) $(CLANG_PACKAGES) python3)
-	cmake -S . -B $(BUILD)-clang -G Ninja -DCMAKE_CXX_COMPILER=clang++-$(CLANG) -DISOJAM_NATIVE=ON -DISOJAM_TESTS=OFF
-	cmake --build $(BUILD)-clang -j $(JOBS) --target isojam
-	cmake -S . -B $(BUILD)-clang-portable -G Ninja -DCMAKE_CXX_COMPILER=clang++-$(CLANG) -DISOJAM_NATIVE=OFF -DISOJAM_TESTS=OFF
-	cmake --build $(BUILD)-clang-portable -j $(JOBS) --target isojam
-	cmake -S . -B $(BUILD)-portable -G Ninja -DISOJAM_NATIVE=OFF -DISOJAM_TESTS=OFF
-	cmake --build $(BUILD)-portable -j $(JOBS) --target isojam
+	cmake -S . -B $(BUILD)-clang -G Ninja -DCMAKE_CXX_COMPILER=clang++-$(CLANG) -DISOJAM_NATIVE=ON $(ONLY_STUDIES)
+	cmake -S . -B $(BUILD)-clang-portable -G Ninja -DCMAKE_CXX_COMPILER=clang++-$(CLANG) -DISOJAM_NATIVE=OFF $(ONLY_STUDIES)
+	cmake -S . -B $(BUILD)-portable -G Ninja -DISOJAM_NATIVE=OFF $(ONLY_STUDIES)
+	cmake -S . -B $(ARM64) -G Ninja $(FOR_ARM64) -DISOJAM_TESTS=ON -DISOJAM_EXTRAS=OFF
+	for folder in $(BUILD)-clang $(BUILD)-clang-portable $(BUILD)-portable $(ARM64); do \
+	  cmake --build $$folder -j $(JOBS) --target isojam || exit 1; done
+	cmake --build $(ARM64) -j $(JOBS) --target elementary_tests geometry_tests solve_tests
+	for tests in arithmetic/elementary_tests geometry/geometry_tests 'solve/solve_tests --gtest_filter=$(FACTOR_TESTS)'; do \
+	  $(ON_ARM64) $(ARM64)/tests/engine/$$tests --gtest_brief=1 || exit 1; done
 	@[ "$$(id -u)" = 0 ] || echo 'Without root rights the build of Debian 13 is left out.' >&2
 	@[ "$$(id -u)" != 0 ] || $(MAKE) --no-print-directory $(TRIXIE)/isojam/build/isojam
-	$(PYTHON) -B $(REPRODUCIBLE)/same_bytes.py $(REPRODUCIBLE)/manifest.json g++=$(BUILD)/isojam \
-	  g++-without-fma-in-libm=GLIBC_TUNABLES:glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,$(BUILD)/isojam \
-	  clang=$(BUILD)-clang/isojam g++-without-avx2=$(BUILD)-portable/isojam \
-	  clang-without-avx2=$(BUILD)-clang-portable/isojam \
+	$(PYTHON) -B $(REPRODUCIBLE)/same_bytes.py $(REPRODUCIBLE)/manifest.json $(REPRODUCIBLE)/quick.json g++=$(BUILD)/isojam \
+	  'g++-without-fma-in-libm=env GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4 $(BUILD)/isojam' \
+	  clang=$(BUILD)-clang/isojam g++-portable=$(BUILD)-portable/isojam clang-portable=$(BUILD)-clang-portable/isojam \
 	  $(if $(filter 0,$(shell id -u)),'debian13=$(TRIXIE)/lib64/ld-linux-x86-64.so.2 --library-path \
-	  $(TRIXIE)/lib/x86_64-linux-gnu $(TRIXIE)/isojam/build/isojam')
+	  $(TRIXIE)/lib/x86_64-linux-gnu $(TRIXIE)/isojam/build/isojam') \
+	  'g++-portable-without-fma=$(WITHOUT_FMA) $(BUILD)-portable/isojam' 'arm64=$(ON_ARM64) $(ARM64)/isojam'
 
 TRIXIE = $(abspath $(BUILD)-trixie)
 $(TRIXIE)/isojam/build/isojam:
@@ -213,16 +237,19 @@ test-debian12 test-debian13:
 VERSION  = $(shell sed -n 's/^project.isojam VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 ARCHIVE  = isojam-$(VERSION)
 PACKAGES = $(BUILD)-package
+PACKAGE  = cmake -S $(PACKAGES)/$(ARCHIVE) -G Ninja -DISOJAM_PACKAGE=ON -DISOJAM_TESTS=OFF \
+           -DISOJAM_PYTHON_DIR=lib/python3/dist-packages $(OPTIONS)
 .PHONY: package
-package:
+package: $(ARM64)/root
 	$(call install,$(PROGRAM_PACKAGES) $(PACKAGE_PACKAGES))
 	rm -rf $(PACKAGES) && mkdir -p $(PACKAGES)/wheel
 	git archive --prefix=$(ARCHIVE)/ HEAD | gzip -9n >$(PACKAGES)/$(ARCHIVE).tar.gz
 	cd $(PACKAGES) && sha256sum $(ARCHIVE).tar.gz >$(ARCHIVE).tar.gz.sha256 && tar -xzf $(ARCHIVE).tar.gz
-	cmake -S $(PACKAGES)/$(ARCHIVE) -B $(PACKAGES)/build -G Ninja -DISOJAM_PACKAGE=ON -DISOJAM_TESTS=OFF \
-	  -DISOJAM_PYTHON_DIR=lib/python3/dist-packages $(OPTIONS)
-	cmake --build $(PACKAGES)/build -j $(JOBS)
-	cpack --config $(PACKAGES)/build/CPackConfig.cmake -B $(PACKAGES)
+	$(PACKAGE) -B $(PACKAGES)/build
+	$(PACKAGE) -B $(PACKAGES)/arm64 $(FOR_ARM64)
+	for folder in build arm64; do \
+	  cmake --build $(PACKAGES)/$$folder -j $(JOBS) && cpack --config $(PACKAGES)/$$folder/CPackConfig.cmake -B $(PACKAGES) || exit 1; \
+	done
 	cd $(PACKAGES)/$(ARCHIVE) && cp -r LICENSE docs/packaging/wheel/pyproject.toml tasks/extras/python/isojam ../wheel
 	cp $(PACKAGES)/build/tasks/extras/python/installed/facts.json $(PACKAGES)/wheel/isojam
 	$(PYTHON) -m build --wheel --no-isolation --outdir $(PACKAGES) $(PACKAGES)/wheel
@@ -292,7 +319,7 @@ fuzz:
 
 clean:
 	rm -rf --one-file-system $(BUILD) $(BUILD)-asan $(BUILD)-clang $(BUILD)-clang-portable $(BUILD)-portable $(BUILD)-before \
-	  $(BUILD)-package $(BUILD)-fuzz $(BUILD)-lint $(BUILD)-trixie $(BUILD)-bookworm
+	  $(BUILD)-package $(BUILD)-fuzz $(BUILD)-lint $(BUILD)-trixie $(BUILD)-bookworm $(ARM64)
 
 # ---- Style ---------------------------------------------------------------------------------------------------
 # tests/house/bad holds files that must fail: the tests see to those.

@@ -2,22 +2,13 @@
 
 #include <cassert>
 
-// libquadmath's functions, declared by hand as in elementary.cpp.
-__extension__ using Quad = __float128;
-extern "C" {
-Quad sqrtq(Quad) noexcept;
-Quad atanq(Quad) noexcept;
-Quad erfcq(Quad) noexcept;
-Quad expq(Quad) noexcept;
-Quad logq(Quad) noexcept;
-Quad lgammaq(Quad) noexcept;
-}
+#include "engine/arithmetic/quad_functions.hpp"
 
 namespace isojam {
 
 namespace {
 
-const Quad half_pi = 2 * atanq(1);
+const Quad half_pi = 2 * QUAD(atan)(1);
 
 /// Root of a function that increases with x > 0, by bisection down to adjacent doubles. `above` is a first guess of a
 /// value above the root. The result has the same bits on every processor.
@@ -34,7 +25,8 @@ double root_of(const Ascending& f, double above) {
 
 /// P(|T| ≤ t).
 Quad student_share(Quad t, long degrees) {
-  const Quad ratio = t / sqrtq(degrees), cos2 = 1 / (1 + ratio * ratio), cosine = sqrtq(cos2), sine = ratio * cosine;
+  const Quad ratio = t / QUAD(sqrt)(degrees), cos2 = 1 / (1 + ratio * ratio), cosine = QUAD(sqrt)(cos2),
+             sine = ratio * cosine;
   const bool odd = degrees % 2 == 1;
   Quad term = odd ? cosine : 1, sum = degrees == 1 ? Quad(0) : term;
   for (long k = odd ? 3 : 2; k < degrees; k += 2) {
@@ -42,7 +34,7 @@ Quad student_share(Quad t, long degrees) {
     sum += term;
     if (term < sum * 1e-34) break;
   }
-  return odd ? (atanq(ratio) + sine * sum) / half_pi : sine * sum;
+  return odd ? (QUAD(atan)(ratio) + sine * sum) / half_pi : sine * sum;
 }
 
 /// Sum of the terms `from` … `last` of a series. `first` is the term `from`, and next(j) is the ratio of the term after
@@ -69,7 +61,7 @@ double normal_quantile(double share) {
   assert(share > 0 && share < 1);
   if (share == 0.5) return 0;
   const Quad tail = share < 0.5 ? Quad(share) : 1 - Quad(share);
-  const double x = root_of([&](double z) { return tail - erfcq(z / sqrtq(2)) / 2; }, 1);
+  const double x = root_of([&](double z) { return tail - QUAD(erfc)(z / QUAD(sqrt)(2)) / 2; }, 1);
   return share < 0.5 ? -x : x;
 }
 
@@ -78,7 +70,8 @@ BinomialTails binomial_tails(long n, double p, long k) {
   if (p == 0) return {1, k == 0 ? 1.0 : 0.0};
   if (p == 1) return {k == n ? 1.0 : 0.0, 1};
   const Quad q = 1 - Quad(p), odds = p / q;
-  const Quad here = expq(lgammaq(n + 1) - lgammaq(k + 1) - lgammaq(n - k + 1) + k * logq(p) + (n - k) * logq(q));
+  const Quad here = QUAD(exp)(QUAD(lgamma)(n + 1) - QUAD(lgamma)(k + 1) - QUAD(lgamma)(n - k + 1) + k * QUAD(log)(p) +
+                              (n - k) * QUAD(log)(q));
   // Sums the tail whose terms decrease from k on. This tail may be far smaller than the rounding error of the other
   // one.
   if (static_cast<double>(k) >= static_cast<double>(n) * p) {

@@ -4,40 +4,24 @@
 #include <cmath>
 #include <cstddef>
 
-// The functions are declared here because <quadmath.h> is among g++'s own headers, which clang does not find.
-__extension__ using Quad = __float128;
-extern "C" {
-Quad sinq(Quad) noexcept;
-Quad cosq(Quad) noexcept;
-Quad tanq(Quad) noexcept;
-Quad asinq(Quad) noexcept;
-Quad acosq(Quad) noexcept;
-Quad atan2q(Quad, Quad) noexcept;
-Quad expq(Quad) noexcept;
-Quad logq(Quad) noexcept;
-Quad log1pq(Quad) noexcept;
-Quad log10q(Quad) noexcept;
-Quad powq(Quad, Quad) noexcept;
-Quad cbrtq(Quad) noexcept;
-Quad hypotq(Quad, Quad) noexcept;
-}
+#include "engine/arithmetic/quad_functions.hpp"
 
 namespace isojam {
 namespace nearest {
 
-double sin(double x) { return static_cast<double>(sinq(x)); }
-double cos(double x) { return static_cast<double>(cosq(x)); }
-double tan(double x) { return static_cast<double>(tanq(x)); }
-double asin(double x) { return static_cast<double>(asinq(x)); }
-double acos(double x) { return static_cast<double>(acosq(x)); }
-double atan2(double y, double x) { return static_cast<double>(atan2q(y, x)); }
-double exp(double x) { return static_cast<double>(expq(x)); }
-double log(double x) { return static_cast<double>(logq(x)); }
-double log1p(double x) { return static_cast<double>(log1pq(x)); }
-double log10(double x) { return static_cast<double>(log10q(x)); }
-double pow(double x, double y) { return static_cast<double>(powq(x, y)); }
-double cbrt(double x) { return static_cast<double>(cbrtq(x)); }
-double hypot(double x, double y) { return static_cast<double>(hypotq(x, y)); }
+double sin(double x) { return static_cast<double>(QUAD(sin)(x)); }
+double cos(double x) { return static_cast<double>(QUAD(cos)(x)); }
+double tan(double x) { return static_cast<double>(QUAD(tan)(x)); }
+double asin(double x) { return static_cast<double>(QUAD(asin)(x)); }
+double acos(double x) { return static_cast<double>(QUAD(acos)(x)); }
+double atan2(double y, double x) { return static_cast<double>(QUAD(atan2)(y, x)); }
+double exp(double x) { return static_cast<double>(QUAD(exp)(x)); }
+double log(double x) { return static_cast<double>(QUAD(log)(x)); }
+double log1p(double x) { return static_cast<double>(QUAD(log1p)(x)); }
+double log10(double x) { return static_cast<double>(QUAD(log10)(x)); }
+double pow(double x, double y) { return static_cast<double>(QUAD(pow)(x, y)); }
+double cbrt(double x) { return static_cast<double>(QUAD(cbrt)(x)); }
+double hypot(double x, double y) { return static_cast<double>(QUAD(hypot)(x, y)); }
 
 }  // namespace nearest
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cfloat>
+
 // The C library has two versions of each elementary function. One of them uses fused multiply-adds, and the library
 // selects the version for the processor at run time. The last bits of the two versions differ. With the C library,
 // the results of a replicate would therefore depend on the processor.
@@ -28,6 +30,13 @@ double hypot(double x, double y);
 }  // namespace isojam::nearest
 
 namespace isojam {
+
+/// Quadruple precision (113 bits), computed in software.
+#if LDBL_MANT_DIG == 113
+using Quad = long double;
+#else
+__extension__ using Quad = __float128;
+#endif
 
 /// The function sin x / x, which is 1 at x = 0, with a relative error of at most 2 ε, where ε = 2⁻⁵². For |x| ≤ 1 it
 /// uses the power series and takes only nanoseconds, so it can be used for rotations in innermost loops.

@@ -9,9 +9,9 @@
 
 namespace isojam {
 
-/// Quadruple precision (113 bits), computed in software. The engine uses it to construct solids, for pairs with nearly
-/// coplanar faces, and for the points where contact forces act. Tests use it as the reference.
-__extension__ using Quad = __float128;
+// The engine uses quadruple precision to construct solids, for pairs with nearly coplanar faces, and for the points
+// where contact forces act. Tests use it as the reference.
+
 /// A vector in quadruple precision.
 using Quad3 = std::array<Quad, 3>;
 using QuadMatrix = std::array<Quad3, 3>;  ///< a matrix in quadruple precision, as three rows
