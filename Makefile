@@ -19,6 +19,7 @@ RESULTS  = $(OUTPUT)/$(shell sed -n 's/.*"name": *"\([^"]*\)".*/\1/p' $(EXAMPLE)
 PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-dev libspectra-dev libmetis-dev \
                     nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev libjs-vega libjs-three
 LINT_PACKAGES    := clang-format clang-tidy
+LIBCXX_PACKAGES  := clang-19 libc++-19-dev libc++abi-19-dev
 # The tests lint two known-bad files, so they need the linters too.
 TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev python3 python3-gsd \
                     python3-vtk9 python3-numpy python3-pandas python3-matplotlib python3-scipy python3-yaml groff-base \
@@ -334,7 +335,7 @@ CONFIGURE_LINT = $(subst -B $(BUILD),-B $(BUILD)-lint,$(CONFIGURE)) -DISOJAM_TES
 # In a directory of its own, where nothing is built: clang-tidy cannot read the headers that g++ precompiles, and so sees
 # that every source includes what it needs.
 lint:
-	$(call install,$(BENCH_PACKAGES))
+	$(call install,$(BENCH_PACKAGES) $(LIBCXX_PACKAGES))
 	@clang-format --dry-run -Werror $(FILES)
 	$(CONFIGURE_LINT)
 	@$(MAKE) --no-print-directory -j $(JOBS) -O -k lint-sources
@@ -342,11 +343,16 @@ lint:
 .PHONY: lint-sources
 lint-sources: $(STAMPS)
 
+# The sources of the program also compile with another standard library. Boost 1.74 needs what C++17 removed.
+LIBCXX = clang++-19 -stdlib=libc++ -fexperimental-library -std=c++20 -fsyntax-only -w -DEIGEN_DONT_VECTORIZE \
+         $(foreach name,VERSION GIT_HASH COMPILER,-DISOJAM_$(name)=\"\") -D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION \
+         -I. -I$(BUILD)-lint/generated -isystem $(EIGEN)
 # A stamp says that this source passed, with the headers it includes and this configuration.
 $(STAMPS): $(BUILD)-lint/stamps/%: % .clang-tidy tests/.clang-tidy
 	@mkdir -p $(@D)
 	@echo 'clang-tidy $<'
 	@clang-tidy --quiet -p $(BUILD)-lint $< >$@.log 2>&1 || { grep -v ' warnings generated' $@.log; exit 1; }
+	$(if $(filter engine/% tasks/%,$<),@$(LIBCXX) $<)
 	@$(CXX) -std=c++20 -MM -MP -MT $@ -MF $@.d -I. -I$(BUILD)-lint/generated -isystem $(EIGEN) $<
 	@touch $@
 

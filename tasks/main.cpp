@@ -1,11 +1,7 @@
-#include <pthread.h>
-#include <sys/resource.h>
-
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <functional>
 #include <new>
 #include <string_view>
 #include <system_error>
@@ -13,6 +9,7 @@
 #include "tasks/commands/command.hpp"
 #include "tasks/io/file.hpp"
 #include "tasks/io/input_error.hpp"
+#include "tasks/io/process.hpp"
 #include "tasks/io/resource_failure.hpp"
 #include "tasks/io/standard_streams.hpp"
 #include "tasks/io/texts.hpp"
@@ -103,43 +100,6 @@ int exit_code_of(int argc, char** argv) {
     std::fprintf(stderr, "isojam: error: %s\n", printable(error.what()).c_str());
     return static_cast<int>(ExitCode::some_failed);
   }
-}
-
-/// The usual limit on Linux. Eigen alone puts matrices of up to 128 KiB on the stack.
-constexpr rlim_t needed = rlim_t{8} << 20;
-
-struct Call {
-  const std::function<int()>& work;
-  int result = 0;
-};
-
-void throw_if(int error) {
-  if (error != 0) throw std::system_error(error, std::generic_category(), "cannot create a thread with enough stack");
-}
-
-/// Calls `work` with at least 8 MiB of stack, and returns its result. If the limit of the process is smaller (ulimit
-/// -s), a thread with such a stack does the work, and later threads also get such a stack. `work` must not throw.
-/// Throws std::system_error if the thread cannot be created.
-int with_enough_stack(const std::function<int()>& work) {
-  rlimit limit{};
-  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= needed) return work();
-  pthread_attr_t attributes;
-  throw_if(::pthread_attr_init(&attributes));
-  throw_if(::pthread_attr_setstacksize(&attributes, needed));
-  throw_if(::pthread_setattr_default_np(&attributes));
-  throw_if(::pthread_attr_destroy(&attributes));
-  Call call{work};
-  pthread_t thread{};
-  throw_if(::pthread_create(
-      &thread, nullptr,
-      [](void* given) -> void* {
-        auto& here = *static_cast<Call*>(given);
-        here.result = here.work();
-        return nullptr;
-      },
-      &call));
-  throw_if(::pthread_join(thread, nullptr));
-  return call.result;
 }
 
 }  // namespace

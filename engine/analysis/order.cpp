@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
 
 double steinhardt_order(std::span<const Eigen::Vector3d> bonds, unsigned l) {
@@ -14,7 +16,7 @@ double steinhardt_order(std::span<const Eigen::Vector3d> bonds, unsigned l) {
   double sum = n;  // P_l(1) of every bond with itself
   for (std::size_t i = 0; i < directions.size(); ++i) {
     for (std::size_t j = i + 1; j < directions.size(); ++j)
-      sum += 2 * std::legendre(l, std::clamp(directions[i].dot(directions[j]), -1.0, 1.0));
+      sum += 2 * legendre(l, std::clamp(directions[i].dot(directions[j]), -1.0, 1.0));
   }
   return std::sqrt(std::max(sum, 0.0)) / n;
 }

@@ -58,7 +58,7 @@ double strength(const ConvexSolid& solid, unsigned l) {
   double sum = 0;
   for (const Vector3d& v : solid.vertices()) {
     for (const Vector3d& w : solid.vertices())
-      sum += std::legendre(l, std::clamp(v.normalized().dot(w.normalized()), -1.0, 1.0));
+      sum += legendre(l, std::clamp(v.normalized().dot(w.normalized()), -1.0, 1.0));
   }
   const auto n = static_cast<double>(solid.vertices().size());
   return sum / (n * n);

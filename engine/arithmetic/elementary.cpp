@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "engine/arithmetic/quad_functions.hpp"
 
@@ -33,6 +34,13 @@ double sinc(double x) {
   double sum = 1;
   for (std::size_t k = factors.size(); k-- > 0;) sum = 1 - square / factors[k] * sum;
   return sum;
+}
+
+double legendre(unsigned l, double x) {
+  double before = 0, value = 1;
+  for (unsigned k = 1; k <= l; ++k)  // Arfken, Mathematical Methods for Physicists, eq. 12.17a
+    before = std::exchange(value, 2 * x * value - before - (x * value - before) / k);
+  return value;
 }
 
 }  // namespace isojam

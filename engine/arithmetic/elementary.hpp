@@ -42,6 +42,9 @@ __extension__ using Quad = __float128;
 /// uses the power series and takes only nanoseconds, so it can be used for rotations in innermost loops.
 double sinc(double x);
 
+/// The Legendre polynomial P_l(x), for |x| ≤ 1. (libc++ has no std::legendre.)
+double legendre(unsigned l, double x);
+
 inline double squared(double x) { return x * x; }    ///< x²
 inline double cubed(double x) { return x * x * x; }  ///< x³
 

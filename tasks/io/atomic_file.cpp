@@ -33,6 +33,11 @@ fs::path temporary_path_for(const fs::path& path) {
 /// True if this error means that the file system does not have the system call or its flag.
 bool is_unsupported(int error) { return error == EINVAL || error == ENOTSUP || error == ENOSYS || error == EPERM; }
 
+#ifndef RENAME_NOREPLACE  // as on macOS
+constexpr unsigned RENAME_NOREPLACE = 1;
+int renameat2(int, const char*, int, const char*, unsigned) { return errno = ENOTSUP, -1; }
+#endif
+
 bool is_there(const fs::path& path) {
   struct stat status {};
   return ::lstat(path.c_str(), &status) == 0;
@@ -104,7 +109,7 @@ class Temporary {
   bool link() {
     if (::link(temporary_.c_str(), path_.c_str()) == 0) return true;
     if (errno == EEXIST) return false;
-    renamed_ = ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_NOREPLACE) == 0;
+    renamed_ = renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_NOREPLACE) == 0;
     if (renamed_ || errno == EEXIST) return renamed_;
     if (!is_unsupported(errno)) throw FileError::of_errno(path_, cannot_be_written);
     const Claim claim(path_);

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <ctime>
 #include <string_view>
 
 #include "tasks/io/exit_codes.hpp"
@@ -29,10 +28,25 @@ bool is_ignored(int signal) {
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
+/// Waits for one of the signals at most this long. Returns whether one arrived. (macOS has no sigtimedwait.)
+bool arrives(const sigset_t& signals, std::chrono::milliseconds patience) {
+  constexpr std::chrono::milliseconds pause{10};
+  for (;; patience -= pause) {
+    sigset_t pending{};
+    sigpending(&pending);
+    for (const int signal : {SIGINT, SIGTERM, wake}) {
+      int found = 0;
+      if (sigismember(&signals, signal) == 1 && sigismember(&pending, signal) == 1)
+        return sigwait(&signals, &found) == 0;
+    }
+    if (patience <= pause) return false;
+    std::this_thread::sleep_for(pause);
+  }
+}
+
 }  // namespace
 
-InterruptWatcher::InterruptWatcher(std::chrono::milliseconds patience)
-    : patience_{patience.count() / 1000, patience.count() % 1000 * 1'000'000} {
+InterruptWatcher::InterruptWatcher(std::chrono::milliseconds patience) : patience_(patience) {
   sigemptyset(&signals_);
   // sigwait would also receive blocked signals that are ignored, so ignored signals are left out.
   for (const int signal : {SIGINT, SIGTERM}) {
@@ -48,8 +62,7 @@ InterruptWatcher::~InterruptWatcher() {
   pthread_kill(thread_.native_handle(), wake);
   thread_.join();
   // A signal that is still pending arrived too late to stop anything. It must not kill a process that has finished.
-  const timespec at_once{};
-  while (sigtimedwait(&signals_, nullptr, &at_once) > 0) {
+  while (arrives(signals_, std::chrono::milliseconds(0))) {
   }
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
@@ -61,7 +74,7 @@ void InterruptWatcher::watch() {
   source_.request_stop();
   // If the program does not stop within `patience_`, end it. Some measures of large packings do not check for requests;
   // their results are discarded.
-  if (sigtimedwait(&signals_, nullptr, &patience_) >= 0 && finished_) return;
+  if (arrives(signals_, patience_) && finished_) return;
   say(fmt::format("\nisojam: warning: {}\n", interrupted_run));
   std::_Exit(static_cast<int>(ExitCode::interrupted));
 }

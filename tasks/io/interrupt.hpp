@@ -29,7 +29,7 @@ class InterruptWatcher {
  private:
   void watch();
 
-  const timespec patience_;
+  const std::chrono::milliseconds patience_;
   sigset_t signals_{}, before_{};
   std::stop_source source_;
   std::atomic<bool> finished_{false};

@@ -1,11 +1,14 @@
 #include "tasks/io/process.hpp"
 
 #include <fmt/format.h>
+#include <pthread.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <sstream>
 #include <system_error>
+#include <thread>
 
 #include "tasks/io/file.hpp"
 
@@ -54,6 +57,28 @@ const ProcessId& this_process() {
 std::optional<bool> is_alive(const ProcessId& process) {
   if (process.machine != this_process().machine) return std::nullopt;
   return start_of(process.process) == process.started;
+}
+
+int with_enough_stack(const std::function<int()>& work) {
+#ifdef __GLIBC__
+  // The usual limit on Linux. Eigen alone puts matrices of up to 128 KiB on the stack.
+  constexpr rlim_t needed = rlim_t{8} << 20;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < needed) {
+    const auto throw_if = [](int error) {
+      if (error != 0) throw std::system_error(error, std::generic_category(), "cannot set the stack size of threads");
+    };
+    pthread_attr_t attributes;
+    throw_if(::pthread_attr_init(&attributes));
+    throw_if(::pthread_attr_setstacksize(&attributes, needed));
+    throw_if(::pthread_setattr_default_np(&attributes));
+    throw_if(::pthread_attr_destroy(&attributes));
+    int result = 0;
+    std::thread([&] { result = work(); }).join();
+    return result;
+  }
+#endif
+  return work();
 }
 
 }  // namespace isojam

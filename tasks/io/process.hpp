@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -17,5 +18,10 @@ const ProcessId& this_process();
 
 /// True if the process still runs. nullopt if it belongs to another machine, boot or PID namespace.
 std::optional<bool> is_alive(const ProcessId& process);
+
+/// Returns work(). If the limit of the process for the stack is smaller than usual (ulimit -s) and the C library is
+/// glibc, a thread with the usual size does the work, and later threads also have this size. `work` must not throw.
+/// Throws std::system_error if the thread cannot be created.
+int with_enough_stack(const std::function<int()>& work);
 
 }  // namespace isojam

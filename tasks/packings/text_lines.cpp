@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 #include "tasks/packings/content_error.hpp"
 
@@ -18,6 +19,18 @@ constexpr std::size_t longest_quote = 20;
 std::string_view without_plus(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+') word.remove_prefix(1);
   return word;
+}
+
+/// std::from_chars. libc++ has it for doubles only since version 20; std::strtod also accepts hexadecimal numbers.
+std::from_chars_result from_chars(std::string_view word, double& value) {
+#ifdef __cpp_lib_to_chars
+  return std::from_chars(word.data(), word.data() + word.size(), value);
+#else
+  const std::string copy(word);
+  char* end = nullptr;
+  value = std::strtod(copy.c_str(), &end);
+  return {word.data() + (end - copy.c_str()), end == copy.c_str() ? std::errc::invalid_argument : std::errc()};
+#endif
 }
 
 }  // namespace
@@ -84,7 +97,7 @@ double TextLines::real(std::string_view word) const {
   constexpr const char* remedy = "write a number such as -0.5 or 1e-3";
   double value = 0;
   word = without_plus(word);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, error] = from_chars(word, value);
   if (error == std::errc::result_out_of_range && end == word.data() + word.size())
     refuse(fmt::format("{} is outside the range of double precision", in_quotes(word)), remedy);
   if (word.empty() || error != std::errc() || end != word.data() + word.size())
