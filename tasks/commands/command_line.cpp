@@ -225,7 +225,10 @@ std::string not_positive(const std::string& text) {
 
 void Options::text(const std::string& name, std::string& value, const std::string& description, const std::string& type,
                    Need need) {
-  app_.add_option(name, value, description)->required(need == Need::required)->type_name(type);
+  const auto not_empty = [](const std::string& text) {
+    return text.empty() ? std::string("the text is empty; give a value, or leave the option out") : std::string();
+  };
+  app_.add_option(name, value, description)->check(not_empty)->required(need == Need::required)->type_name(type);
 }
 
 void Options::texts(const std::string& name, std::vector<std::string>& values, const std::string& description,

@@ -79,8 +79,7 @@ std::optional<std::string> read_measures(const std::string& text, std::vector<Me
   return std::nullopt;
 }
 
-/// Throws InputError if a record cannot get the measures. Otherwise the manifest would request measures that this
-/// record does not have.
+/// Throws InputError if a record cannot get the measures.
 void require_possible(const std::vector<Additions::Impossible>& impossible, const std::string& directory) {
   if (impossible.empty()) return;
   const auto& [name, why] = impossible.front();
@@ -110,7 +109,7 @@ void say_nearest_only(const Additions& additions, Console& console) {
 /// Writes the tables of all records in the directory, and prints the first one and those of the added measures.
 void write_table(const Store& store, const std::vector<Measure>& added, Console& console) {
   const auto table = table_of(
-      store.directory().string(), store.kept(), [&](const std::string& message) { console.warn(message); },
+      store.directory().string(), store.manifest(), [&](const std::string& message) { console.warn(message); },
       [](const RecordedReplicate&) {});
   store.write_tables(to_json(table));
   print_tables(table, store.directory().string(), added);
@@ -119,21 +118,22 @@ void write_table(const Store& store, const std::vector<Measure>& added, Console&
 /// Adds the requested measures to the records. It also adds the measures that an interrupted call did not add.
 ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   const InterruptWatcher watcher;
-  // Report a wrong directory or a wrong name before the directory is locked. Both functions throw in this case.
+  // Report a wrong directory or a wrong name first. Both functions throw in this case.
   recorded_names(arguments.directory);
   if (!arguments.only.empty()) recorded_name(arguments.directory, arguments.only);
-  const auto lock = lock_results(arguments.directory, DirectoryLock::Kind::exclusive);
+  const auto warn = [&](const std::string& message) { console.warn(message); };
   const auto before = own_manifest(arguments.directory);
   // A manifest with such a measure would not be accepted by any later command.
   if (const auto problem = problem_of_measures(before, arguments.add))
     throw InputError({arguments.directory, "", *problem, "", "", "remove the measure from --add"});
-  const auto manifest = with_measures(before, arguments.add);
-  const Plan plan(manifest);
+  auto manifest = before;
+  manifest.measures.insert(manifest.measures.end(), arguments.add.begin(), arguments.add.end());
+  sort_measures(manifest.measures);
   // Find impossible measures before anything is written.
-  auto found = additions(arguments.directory, plan, recorded_names(arguments.directory));
+  auto found = additions(arguments.directory, requests_in(arguments.directory, warn), manifest.measures,
+                         recorded_names(arguments.directory));
   if (manifest.measures != before.measures) require_possible(found.impossible, arguments.directory);
-  extend_manifest(arguments.directory, arguments.add);
-  const Store store(arguments.directory, manifest, [&](const std::string& message) { console.warn(message); });
+  const Store store(arguments.directory, manifest, warn, DirectoryLock::Kind::exclusive);
   if (!arguments.only.empty()) select_replicate(found, arguments.only);
   for (const auto& [name, why] : found.impossible)
     console.warn(fmt::format("{}: {}; \"isojam run\" recomputes this replicate", name, why));

@@ -12,8 +12,14 @@
 namespace isojam {
 namespace {
 
-ReplicateSpec planned(const Plan& plan, const std::string& name, const Store& store) {
-  if (const auto place = plan.place_of(name)) return plan.at(place->point, place->replicate);
+ReplicateSpec planned(const Requests& requests, const std::string& name, const Store& store) {
+  for (const auto& plan : requests) {
+    const auto place = plan.place_of(name);
+    if (!place || !plan.requests(*place)) continue;
+    auto manifest = plan.manifest();
+    load_start(manifest);
+    return Plan(manifest).at(place->point, place->replicate);
+  }
   throw_unknown_replicate(store.directory().string(), name, names_in(store.directory() / "records"));
 }
 
@@ -74,13 +80,10 @@ ExitCode redo(const RerunArguments& arguments, const Store& store, const Replica
 /// Recomputes a replicate from the start, replaces its record, and reports whether the result has the same bits as the
 /// old record.
 ExitCode rerun(const RerunArguments& arguments, Console& console) {
-  // Report a wrong directory before it is locked.
-  own_manifest(arguments.directory);
-  const auto lock = lock_results(arguments.directory, DirectoryLock::Kind::shared);
-  auto manifest = own_manifest(arguments.directory);
-  load_start(manifest);
-  const Store store(arguments.directory, manifest, [&](const std::string& message) { console.warn(message); });
-  const auto spec = planned(Plan(manifest), arguments.replicate, store);
+  const auto warn = [&](const std::string& message) { console.warn(message); };
+  const Store store(arguments.directory, own_manifest(arguments.directory), warn);
+  auto spec = planned(requests_in(arguments.directory, warn), arguments.replicate, store);
+  store.keep_measures(spec);
   try {
     return redo(arguments, store, spec, console);
   } catch (const FileError& error) {

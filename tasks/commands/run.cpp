@@ -55,13 +55,10 @@ std::string left_text(double least, double most) {
 /// time of a replicate. Then prints estimates for the remaining replicates: their time and disk space, and the memory
 /// of the replicate that needs the most memory. If there are records, the estimated times are scaled to the times in
 /// these records. The function writes no file.
-/// Throws InputError if the directory has records of another manifest.
 ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& directory,
                  const RunArguments& arguments) {
-  const auto survey = survey_of(directory, plan, manifest.keep_path);
-  if (!survey.others.empty())
-    throw InputError({directory + "/records/" + survey.others.front() + ".json", "/provenance/manifest_digest",
-                      std::string(other_manifest), "", "", std::string(choose_another_directory)});
+  const auto surveys = surveys_of(directory, {plan});
+  const auto& survey = surveys.of_plans.front();
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   double least = 0, most = 0, disk = 0, disk_with_paths = 0, largest = 0;
   std::string text = fmt::format("{}: {}, seed {}, results in {}\n", manifest.name,
@@ -143,19 +140,26 @@ Stages resuming_stages(const Store& store) {
 /// Runs a round, and returns the number of replicates that failed.
 int run_round(Campaign& campaign, const Store& store, const Stages& stages, GraphOptions options, Console& console) {
   const auto size = campaign.round_size();
+  const auto recorded = names_in(store.directory() / "records");
   console.begin(static_cast<int>(size.replicates - size.recorded), size.work);
   int failed = 0;
   options.on_step = [&](const ReplicateSpec& spec, const Checkpoint& checkpoint) {
     store.write_checkpoint(spec, checkpoint);
     console.tick(step_text(spec, checkpoint.progress));
   };
-  run_graph([&] { return campaign.next(); }, stages, options,
-            [&](const Outcome& outcome) {
-              if (outcome.interrupted) return;
-              store.write(outcome);
-              failed += outcome.failure.has_value();
-              report_outcome(outcome, console);
-            });
+  const auto next = [&] {
+    auto spec = campaign.next(options.stop);
+    // The size of the round does not contain replicates whose record is not valid.
+    if (spec && std::binary_search(recorded.begin(), recorded.end(), replicate_name(*spec)))
+      console.add(work_of(*spec));
+    return spec;
+  };
+  run_graph(next, stages, options, [&](const Outcome& outcome) {
+    if (outcome.interrupted) return;
+    store.write(outcome);
+    failed += outcome.failure.has_value();
+    report_outcome(outcome, console);
+  });
   console.end();
   return failed;
 }
@@ -196,7 +200,9 @@ bool all_recorded(const Campaign& campaign, const std::function<bool(const std::
 class StateFiles {
  public:
   explicit StateFiles(const Store& store)
-      : keep_path_(store.kept().keep_path), packings_(names_of(store, "packings")), paths_(names_of(store, "paths")) {}
+      : keep_path_(store.manifest().keep_path),
+        packings_(names_of(store, "packings")),
+        paths_(names_of(store, "paths")) {}
 
   bool has(const std::string& name) const { return packings_.contains(name) && (!keep_path_ || paths_.contains(name)); }
   static std::set<std::string> names_of(const Store& store, const char* folder) {
@@ -231,7 +237,7 @@ ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard
   const StateFiles files(store);
   std::set<std::string> complete;
   const auto table = table_of(
-      store.directory().string(), store.kept(), [&](const std::string& message) { console.warn(message); },
+      store.directory().string(), store.manifest(), [&](const std::string& message) { console.warn(message); },
       [&](const RecordedReplicate& record) {
         if (record.summary.failed || files.has(record.name)) complete.insert(record.name);
       });
@@ -240,28 +246,15 @@ ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard
     return ExitCode::some_failed;
   store.write_tables(to_json(table));
   print_tables(table, store.directory().string());
-  const bool failed = std::any_of(table.rows.begin(), table.rows.end(), [](const Row& row) { return row.failed > 0; });
-  return failed ? ExitCode::some_failed : code;
-}
-
-/// If measures were added to the manifest of the directory, new replicates get these measures too.
-void adopt_added_measures(const std::string& directory, Manifest& manifest, Console& console) {
-  const auto kept = stored_manifest(directory);
-  if (!kept || kept->measures == manifest.measures ||
-      !(contains_sweep(manifest, *kept) || contains_sweep(*kept, manifest)))
-    return;
-  if (with_measures(manifest, kept->measures).measures != kept->measures) return;
-  manifest.measures = kept->measures;
-  console.info(fmt::format("{}: new replicates have the measures that were added to this directory", directory));
+  return code;
 }
 
 /// Validates the manifest, plans, runs the missing replicates, and prints the tables on standard output. A shard prints
 /// no tables; `isojam aggregate` makes them after all shards have finished.
 ExitCode run(const RunArguments& arguments, Console& console) {
   const InterruptWatcher watcher;
-  auto manifest = read_manifest(arguments.manifest);
+  const auto manifest = read_manifest(arguments.manifest);
   const auto directory = arguments.directory.empty() ? "results/" + manifest.name : arguments.directory;
-  adopt_added_measures(directory, manifest, console);
   const Plan plan(manifest);
   warn_about(manifest, arguments.manifest, console);
   if (arguments.dry_run) {
@@ -270,7 +263,6 @@ ExitCode run(const RunArguments& arguments, Console& console) {
   }
 
   warn_without_fma(console);
-  const auto lock = lock_results(directory, DirectoryLock::Kind::shared);
   const Store store(directory, manifest, [&](const std::string& message) { console.warn(message); });
   Campaign campaign(plan, manifest.replicates, arguments.shard, store);
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -66,24 +65,6 @@ void throw_unknown_replicate(const std::string& directory, const std::string& na
                           : nearest.empty() ? fmt::format("; expected a name such as \"{}\"", names[0])
                                             : fmt::format("; did you mean \"{}\"?", nearest);
   throw UsageError(fmt::format("{}: unknown replicate \"{}\"{}", directory, name, correction));
-}
-
-DirectoryLock lock_results(const std::string& directory, DirectoryLock::Kind kind) {
-  std::error_code error;
-  const auto status = std::filesystem::status(directory, error);
-  if (std::filesystem::exists(status) && !std::filesystem::is_directory(status))
-    throw FileError(directory + ": is a file; give a directory with -o", FileError::Reason::missing);
-  std::filesystem::create_directories(directory, error);
-  if (error) {
-    errno = error.value();
-    throw FileError::of_errno(directory, "cannot be created");
-  }
-  auto lock = DirectoryLock::take(directory, kind);
-  if (lock) return *std::move(lock);
-  throw FileError(
-      directory +
-          ": another process of isojam is using this directory; repeat this command after that process has ended",
-      FileError::Reason::resource_failure);
 }
 
 void print_tables(const Table& table, const std::string& directory, const std::vector<Measure>& measures) {

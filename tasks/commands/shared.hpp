@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "tasks/io/console.hpp"
-#include "tasks/io/directory_lock.hpp"
 #include "tasks/records/replicate.hpp"
 #include "tasks/tables/aggregate.hpp"
 
@@ -37,10 +36,6 @@ std::string recorded_name(const std::string& directory, const std::string& name)
 /// Prints the first table of a directory, the tables that its manifest requests, and the tables of `measures`. They are
 /// at most as wide as the terminal.
 void print_tables(const Table& table, const std::string& directory, const std::vector<Measure>& measures = {});
-
-/// Takes a lock on a results directory, which it creates if there is none. Call it before a Store is opened, because
-/// the Store writes files. Throws FileError if another process has a lock that excludes this one.
-DirectoryLock lock_results(const std::string& directory, DirectoryLock::Kind kind);
 
 /// Text of the option --version: version and commit, and on a second line the schemas of the files that this version
 /// writes.

@@ -13,6 +13,7 @@
 #include "tasks/manifest/cost.hpp"
 #include "tasks/records/recorded.hpp"
 #include "tasks/records/replicate.hpp"
+#include "tasks/records/requests.hpp"
 #include "tasks/records/survey.hpp"
 #include "tasks/tables/stopping.hpp"
 
@@ -85,36 +86,51 @@ std::string flags_text(const Survey& survey) {
   return counts.empty() ? "" : fmt::format(" ({})", fmt::join(counts, ", "));
 }
 
-/// Prints the progress of a results directory: recorded, running and interrupted replicates, flags, and problems.
-/// Writes no file.
-ExitCode status(const StatusArguments& arguments, Console&) {
-  const auto manifest = own_manifest(arguments.directory);
-  const Plan plan(manifest);
-  const auto survey = survey_of(arguments.directory, plan, manifest.keep_path);
+/// The line of a manifest, and the time left for it.
+std::string text_of(const Survey& survey, const Plan& plan) {
   const auto totals = totals_of(survey, plan);
   const auto running =
       static_cast<std::size_t>(std::count_if(survey.under_way.begin(), survey.under_way.end(), is_running));
   const auto interrupted = survey.under_way.size() - running;
-  auto text = fmt::format("{}: {} of {}{} recorded, {} failed, {} flagged{}, {} running{}\n", manifest.name,
-                          totals.recorded, manifest.replicates.goal ? "up to " : "", counted(plan.size(), "replicate"),
-                          totals.failed, totals.flagged, flags_text(survey), running,
-                          interrupted > 0 ? fmt::format(", {} interrupted", interrupted) : "");
-  if (survey.unplanned > 0)
-    text += fmt::format("  {} {} not in the plan of the manifest\n",
-                        counted(static_cast<std::size_t>(survey.unplanned), "record"),
-                        survey.unplanned == 1 ? "is" : "are");
-  if (survey.lacking > 0)
-    text +=
-        fmt::format("  {} without the measures that were added later; add them with \"isojam measure {}\"\n",
-                    counted(static_cast<std::size_t>(survey.lacking), "record"), shell_argument(arguments.directory));
-  for (const auto& replicate : survey.under_way) {
+  const bool has_goal = plan.manifest().replicates.goal.has_value();
+  return fmt::format("{}: {} of {}{} recorded, {} failed, {} flagged{}, {} running{}\n", plan.manifest().name,
+                     totals.recorded, has_goal ? "up to " : "", counted(plan.size(), "replicate"), totals.failed,
+                     totals.flagged, flags_text(survey), running,
+                     interrupted > 0 ? fmt::format(", {} interrupted", interrupted) : "") +
+         time_left(totals, running, has_goal);
+}
+
+/// True if a replicate of the plan is missing.
+bool is_incomplete(const Survey& survey, const Plan& plan) {
+  return std::any_of(survey.points.begin(), survey.points.end(),
+                     [&](const Survey::Point& point) { return replicates_left(point, plan.manifest()) > 0; });
+}
+
+/// Prints the progress of a results directory: recorded, running and interrupted replicates of the last manifest and of
+/// earlier manifests that are not complete, flags, and problems. Writes no file.
+ExitCode status(const StatusArguments& arguments, Console& console) {
+  own_manifest(arguments.directory);
+  const auto plans = requests_in(arguments.directory, [&](const std::string& message) { console.warn(message); });
+  const auto surveys = surveys_of(arguments.directory, plans);
+  const auto& last = surveys.of_plans.front();
+  auto text = text_of(last, plans.front());
+  for (std::size_t k = 1; k < plans.size(); ++k) {
+    if (is_incomplete(surveys.of_plans[k], plans[k])) text += "before, " + text_of(surveys.of_plans[k], plans[k]);
+  }
+  if (const auto unasked = surveys.unasked.size(); unasked > 0)
+    text += fmt::format("  {} {} requested by no manifest, for example {}\n", counted(unasked, "record"),
+                        unasked == 1 ? "is" : "are", surveys.unasked.front());
+  if (last.lacking > 0)
+    text += fmt::format("  {} without measures of the manifest; add them with \"isojam measure {}\"\n",
+                        counted(static_cast<std::size_t>(last.lacking), "record"), shell_argument(arguments.directory));
+  for (const auto& replicate : last.under_way) {
     text +=
         fmt::format("  {}: {}{} at density {:.4f}, {} steps, {} of CPU time, last step {} ago\n", replicate.name,
-                    is_running(replicate) ? "" : "interrupted in ", replicate.stage, replicate.density,
-                    replicate.steps, duration_text(replicate.cpu_seconds), duration_text(replicate.seconds_since_step));
+                    is_running(replicate) ? "" : "interrupted in ", replicate.stage, replicate.density, replicate.steps,
+                    duration_text(replicate.cpu_seconds), duration_text(replicate.seconds_since_step));
   }
-  for (const auto& line : survey.damaged) text += fmt::format("  problem: {}\n", line);
-  print(text + time_left(totals, running, manifest.replicates.goal.has_value()));
+  for (const auto& line : surveys.damaged) text += fmt::format("  problem: {}\n", line);
+  print(text);
   return ExitCode::done;
 }
 

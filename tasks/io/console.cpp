@@ -72,6 +72,12 @@ void Console::begin(int total, double work) {
   if (options_.form == MessageForm::json && !options_.quiet) put_progress(status());
 }
 
+void Console::add(double work) {
+  const std::lock_guard lock(mutex_);
+  ++total_;
+  work_total_ += work;
+}
+
 void Console::finished(double work, bool failed) {
   const std::lock_guard lock(mutex_);
   ++done_;

@@ -48,6 +48,8 @@ class Console {
   /// Begins a round of `total` replicates. `work` is their total cost in any unit; the remaining time is estimated from
   /// it.
   void begin(int total, double work);
+  /// Adds a replicate to the round.
+  void add(double work);
   /// Counts a replicate as finished, with its cost in the same unit.
   void finished(double work, bool failed);
   /// Shows the progress of the round, or the text `what` before the first begin(). On a terminal it redraws a progress

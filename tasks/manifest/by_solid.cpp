@@ -40,35 +40,6 @@ bool is_free(const JsonPlace& root, const Manifest& manifest, SolidKind kind, co
          place_of(root, key, to_string(kind)).pointer().empty();
 }
 
-void put(Manifest& manifest, SolidKind kind, const std::string& key, const Json& value) {
-  auto& own = manifest.by_solid[std::string(to_string(kind))];
-  own.parameters[key] = value;
-  read_into({value, manifest.name}, parameter_of(own.options, key).field);
-}
-
-/// Cubes order during compression. A crystal can exceed the usual limit long before it has the target energy.
-void put_limit_of_cubes(const JsonPlace& root, Manifest& manifest) {
-  const Mixture cube = SolidKind::cube;
-  if (!is_free(root, manifest, SolidKind::cube, "max_density")) return;
-  auto options = options_of(manifest, {Json::object(), manifest.protocol}, cube);
-  for (const std::string name : {"target_energy", "compression_step"}) {
-    if (const auto swept = manifest.swept.find(name); swept != manifest.swept.end())
-      copy_values({{{name, nullptr}}, swept->second.back()}, options);
-  }
-  const double limit = densest_compression(options);
-  // In a smaller cell, a particle could touch two images of another one at this density.
-  const bool fits = std::all_of(manifest.particles.begin(), manifest.particles.end(),
-                                [&](int particles) { return particles >= least_particles(cube, limit); });
-  if (fits) put(manifest, SolidKind::cube, "max_density", limit);
-}
-
-/// φ_J of tetrahedra depends on how completely the states of the compression are relaxed (examples/02-strain-step).
-void put_relaxation_of_tetrahedra(const JsonPlace& root, Manifest& manifest) {
-  constexpr auto key = "compression_evaluations";
-  if (is_free(root, manifest, SolidKind::tetrahedron, key))
-    put(manifest, SolidKind::tetrahedron, key, evaluations_of_tetrahedra);
-}
-
 void read_by_solid(const JsonPlace& place, Manifest& manifest) {
   if (manifest.solids.empty()) return;  // every name would be reported as unknown
   std::vector<std::string> solids;
@@ -109,8 +80,12 @@ Custom by_solid_field(Manifest& manifest) {
 }
 
 void add_defaults_of_solids(const JsonPlace& root, Manifest& manifest) {
-  put_limit_of_cubes(root, manifest);
-  put_relaxation_of_tetrahedra(root, manifest);
+  manifest.free_cube_limit = is_free(root, manifest, SolidKind::cube, "max_density");
+  constexpr auto key = "compression_evaluations";
+  if (!is_free(root, manifest, SolidKind::tetrahedron, key)) return;
+  // φ_J of tetrahedra depends on how completely the states of the compression are relaxed (examples/02-strain-step).
+  auto& own = manifest.by_solid[std::string(to_string(SolidKind::tetrahedron))];
+  own.parameters[key] = own.options.compression.evaluations = evaluations_of_tetrahedra;
 }
 
 std::vector<OptionSet> option_sets(const Manifest& manifest) {
@@ -129,10 +104,18 @@ std::vector<OptionSet> option_sets(const Manifest& manifest) {
   return sets;
 }
 
-JamOptions options_of(const Manifest& manifest, const OptionSet& set, const Mixture& solid) {
+JamOptions options_of(const Manifest& manifest, const OptionSet& set, const Mixture& solid,
+                      std::optional<int> particles) {
   auto options = set.options;
   if (const auto own = manifest.by_solid.find(to_string(solid)); own != manifest.by_solid.end())
     copy_values(own->second, options);
+  if (particles && manifest.free_cube_limit && solid == Mixture(SolidKind::cube)) {
+    auto& limit = options.compression.max_density;
+    const double usual = limit;
+    // In a smaller cell, a particle could touch two images of another one.
+    for (limit = densest_compression(options); limit > usual && *particles < least_particles(solid, limit);)
+      limit = std::max(usual, std::round(100 * limit - 1) / 100);
+  }
   return options;
 }
 

@@ -8,7 +8,6 @@
 #include <system_error>
 
 #include "tasks/io/file.hpp"
-#include "tasks/io/hash.hpp"
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/parse.hpp"
 #include "tasks/io/sealed.hpp"
@@ -168,39 +167,13 @@ Json to_json(const Manifest& manifest) {
     const Json::json_pointer pointer(find_parameter(name)->pointer);
     json.at(pointer.parent_pointer()).erase(pointer.back());
   }
+  if (manifest.free_cube_limit) json.at("protocol").erase("max_density");
   return json;
 }
 
-Json identity(const Manifest& manifest) {
-  auto json = to_json(manifest);
-  json.erase("replicates");
-  json.erase("keep_path");
-  json.erase("exclude");
-  json.erase("base");
-  if (json.contains("start")) json["start"].erase("packing");  // the digests already identify the packings
-  return json;
-}
-
-std::string digest(const Manifest& manifest) { return hex_hash(compact(identity(manifest))); }
-
-Manifest with_measures(Manifest manifest, const std::vector<Measure>& more) {
-  auto& all = manifest.measures;
-  all.insert(all.end(), more.begin(), more.end());
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return manifest;
-}
-
-std::string digest_without_measures(const Manifest& manifest) {
-  Manifest bare = manifest;
-  bare.measures.clear();
-  return digest(bare);
-}
-
-bool is_of_sweep(const Manifest& manifest, const std::vector<Measure>& measures, const std::string& digest_of_record) {
-  Manifest as_recorded = manifest;
-  as_recorded.measures = measures;
-  return digest(as_recorded) == digest_of_record;
+void sort_measures(std::vector<Measure>& measures) {
+  std::sort(measures.begin(), measures.end());
+  measures.erase(std::unique(measures.begin(), measures.end()), measures.end());
 }
 
 }  // namespace isojam

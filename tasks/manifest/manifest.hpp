@@ -50,7 +50,8 @@ struct Manifest {
   /// key: the name of a swept parameter; value: options with its values, ascending and all different
   std::map<std::string, std::vector<JamOptions>, std::less<>> swept;
   Replicates replicates;
-  JamOptions protocol;  ///< options of the protocol and of the minimiser
+  JamOptions protocol;           ///< options of the protocol and of the minimiser
+  bool free_cube_limit = false;  ///< true if the sweep has cubes and no max_density is given for them
   /// key: the name of a solid in `solids`; value: the parameters of the protocol with their values for this solid only
   std::map<std::string, OptionSet, std::less<>> by_solid{};
   std::vector<Measure> measures = usual_measures();
@@ -79,8 +80,10 @@ SweptValues swept_values(const Manifest& manifest);
 /// no parameter is swept, there is one combination, whose `parameters` are empty.
 std::vector<OptionSet> option_sets(const Manifest& manifest);
 
-/// The options in `set`, with the values that the manifest has only for this solid.
-JamOptions options_of(const Manifest& manifest, const OptionSet& set, const Mixture& solid);
+/// The options in `set`, with the values that the manifest has only for this solid. With a number of particles, the
+/// options of these replicates, see densest_compression().
+JamOptions options_of(const Manifest& manifest, const OptionSet& set, const Mixture& solid,
+                      std::optional<int> particles = std::nullopt);
 
 /// Parses a manifest and checks it in stages: first the JSON syntax and the checksum, then each value and combinations
 /// of values without errors, and last the files of /start if it has no digests. Throws one InputError with all errors
@@ -96,26 +99,7 @@ Manifest read_manifest(const std::string& file);
 /// converts it back to the same study.
 Json to_json(const Manifest& manifest);
 
-/// The part of the canonical form that must be the same for all runs in a results directory. It does not contain the
-/// keys that the user may change later: the number of replicates, keep_path, the excluded flags and the base. It
-/// contains the digests of initial configurations, but not the paths of their files.
-Json identity(const Manifest& manifest);
-/// Digest of identity().
-std::string digest(const Manifest& manifest);
-
-/// The manifest with additional measures. The measures are sorted, and each occurs once.
-Manifest with_measures(Manifest manifest, const std::vector<Measure>& more);
-/// The value of digest() for the manifest without any measure.
-std::string digest_without_measures(const Manifest& manifest);
-/// True if the sweep of `whole` has all values of the sweep of `part`, and everything else in their identity() is
-/// equal. Measures and parameters of single solids (/protocol/by_solid) are not compared.
-bool contains_sweep(const Manifest& whole, const Manifest& part);
-/// True if `digest_of_record` is the value of digest() for this manifest with `measures` instead of its own measures.
-bool is_of_sweep(const Manifest& manifest, const std::vector<Measure>& measures, const std::string& digest_of_record);
-
-/// Text with the keys in which the identity() of two manifests differs, and both values: "/seed: 8 in the directory, 7
-/// in this manifest; ...". It lists at most five keys and states how many more there are. Empty if there is no
-/// difference.
-std::string differences(const Manifest& theirs, const Manifest& ours);
+/// Sorts measures, and removes repetitions.
+void sort_measures(std::vector<Measure>& measures);
 
 }  // namespace isojam

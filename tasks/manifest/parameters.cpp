@@ -25,8 +25,8 @@ void compression_fields(Fields& field, Compression& c) {
   field("max_density", c.max_density,
         "Largest density φ that compression may reach. The cell must be so large that no particle can touch two "
         "images of another particle up to this density. Cubes become ordered during compression, so their default is "
-        "1.07, or more if `target_energy` is higher. If any value of `particles` is too small for that density, the "
-        "default of cubes is 0.93 too.")
+        "1.07, or more if `target_energy` is higher. In a cell that is too small for that density, it is the largest "
+        "possible one, but at least 0.93.")
       .range(positive_to(2));
   field("compression_evaluations", c.evaluations,
         "Largest number of evaluations of L-BFGS for one compression state. After this number, isojam makes the next "

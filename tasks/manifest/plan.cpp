@@ -41,25 +41,23 @@ std::string point_text(const ReplicateSpec& spec) { return point_text(spec.solid
 
 Plan::Plan(const Manifest& manifest)
     : manifest_(manifest),
-      digest_(digest(manifest)),
-      sweep_digest_(digest_without_measures(manifest)),
       sets_(option_sets(manifest)),
       points_(manifest.solids.size() * manifest.particles.size() * sets_.size()) {
   for (std::size_t point = 0; point < points_; ++point) point_of_prefix_[prefix(at(point, 0))] = point;
 }
 
 ReplicateSpec Plan::at(std::size_t point, int replicate) const {
-  assert(point < points_ && replicate >= 0 && replicate < replicates());
+  assert(point < points_ && replicate >= 0 && (replicate < replicates() || !manifest_.start));
   const auto& set = sets_[point % sets_.size()];
   const auto size = point / sets_.size();
-  return {manifest_.solids[size / manifest_.particles.size()],
-          manifest_.particles[size % manifest_.particles.size()],
+  const auto& solid = manifest_.solids[size / manifest_.particles.size()];
+  const int particles = manifest_.particles[size % manifest_.particles.size()];
+  return {solid,
+          particles,
           set.parameters,
           replicate,
           manifest_.seed,
-          digest_,
-          sweep_digest_,
-          options_of(manifest_, set, manifest_.solids[size / manifest_.particles.size()]),
+          options_of(manifest_, set, solid, particles),
           manifest_.measures,
           manifest_.measuring,
           manifest_.start};
@@ -77,7 +75,8 @@ std::optional<Plan::Place> Plan::place_of(std::string_view name) const {
   const auto digits = name.substr(split + 2);
   int replicate = -1;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), replicate);
-  if (point == point_of_prefix_.end() || error != std::errc() || replicate < 0 || replicate >= replicates())
+  if (point == point_of_prefix_.end() || error != std::errc() || replicate < 0 ||
+      replicate >= (manifest_.start ? replicates() : static_cast<int>(most_replicates)))
     return std::nullopt;
   // The name must be spelt exactly as isojam spells it. For example, the number 1 must be written 0001.
   if (replicate_name(at(point->second, replicate)) != name) return std::nullopt;
@@ -142,5 +141,13 @@ Json to_json(const ReplicateSpec& spec) {
   json.update(written(spec));
   return json;
 }
+
+std::string spec_digest(Json spec, std::uint64_t seed) {
+  spec.erase("measure");
+  spec["seed"] = seed;
+  return hex_hash(compact(spec));
+}
+
+std::string spec_digest(const ReplicateSpec& spec) { return spec_digest(to_json(spec), spec.seed); }
 
 }  // namespace isojam

@@ -20,8 +20,6 @@ struct ReplicateSpec {
   Json parameters = Json::object();  ///< values of the swept parameters other than solid and particles
   int replicate = 0;
   std::uint64_t seed = 0;  ///< seed of the manifest
-  std::string manifest_digest;
-  std::string sweep_digest;  ///< digest of the manifest without its measures
   JamOptions options;
   std::vector<Measure> measures;
   MeasureOptions measuring;
@@ -44,7 +42,6 @@ class Plan {
   int replicates() const { return manifest_.replicates.max; }  ///< largest number of replicates per sweep point
   std::size_t size() const { return points_ * static_cast<std::size_t>(replicates()); }
   const Manifest& manifest() const { return manifest_; }
-  const std::string& manifest_digest() const { return digest_; }
   const std::vector<Flag>& exclude() const { return manifest_.exclude; }
 
   ReplicateSpec at(std::size_t point, int replicate) const;
@@ -53,12 +50,13 @@ class Plan {
     std::size_t point;
     int replicate;
   };
-  /// Position of the replicate with this name; nullopt if the plan has no such replicate.
+  /// Position of the replicate with this name; nullopt if the plan has no such sweep point. The number of the replicate
+  /// may be larger than the plan requests, unless initial configurations are given.
   std::optional<Place> place_of(std::string_view name) const;
+  bool requests(const Place& place) const { return place.replicate < replicates(); }
 
  private:
   Manifest manifest_;
-  std::string digest_, sweep_digest_;
   std::vector<OptionSet> sets_;
   std::size_t points_;
   /// index of each sweep point; the key is the common beginning of the names of its replicates
@@ -80,5 +78,10 @@ RandomStream replicate_stream(const ReplicateSpec& spec, Purpose purpose);
 void describe(Fields& field, ReplicateSpec& spec);
 /// All fields in this form.
 Json to_json(const ReplicateSpec& spec);
+
+/// Digest of everything that determines a replicate: its specification in this form without the measures, and the seed.
+/// Two replicates with the same digest have the same states, whatever else their manifests request.
+std::string spec_digest(Json spec, std::uint64_t seed);
+std::string spec_digest(const ReplicateSpec& spec);
 
 }  // namespace isojam

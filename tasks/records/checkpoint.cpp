@@ -88,7 +88,7 @@ struct Document {
 void describe_all(Fields& field, Document& document, const ReplicateSpec& spec) {
   field("schema", document.schema, "Name and version of the file format.");
   field("checksum", document.checksum, "Checksum of the text, as in a record.");
-  field("provenance", document.provenance, "The build, the manifest without its measures, and the seed.");
+  field("provenance", document.provenance, "The build, the specification and the seed.");
   field.custom("spec",
                {[&document] { return document.spec; },
                 [&document](const JsonPlace& place) { document.spec = place.value(); },
@@ -113,14 +113,7 @@ void describe_all(Fields& field, Document& document, const ReplicateSpec& spec) 
   field.custom("packing", packing_of(progress.packing, spec), "Packing from which the next step starts.");
 }
 
-/// Build and manifest of the checkpoint. The digest excludes measures, because measures may be added while a run is
-/// interrupted.
-Provenance origin(const ReplicateSpec& spec) {
-  auto provenance = provenance_of(spec);
-  provenance.manifest_digest = spec.sweep_digest;
-  return provenance;
-}
-
+/// Measures may be added while a run is interrupted.
 Json run_of(const ReplicateSpec& spec) {
   auto json = to_json(spec);
   json.erase("measure");
@@ -143,7 +136,7 @@ std::optional<Json> make_checkpoint(const ReplicateSpec& spec, const Checkpoint&
   if (!std::all_of(path.begin(), path.end(), is_finite)) return std::nullopt;
   Document document{std::string(checkpoint_schema),
                     {},
-                    origin(spec),
+                    provenance_of(spec),
                     run_of(spec),
                     this_process(),
                     checkpoint.spent,
@@ -157,8 +150,8 @@ ProcessId read_writer(const JsonPlace& root) { return read<ProcessId>(root.at("w
 
 Checkpoint read_checkpoint(const JsonPlace& root, const ReplicateSpec& spec) {
   root.at("schema").choice(std::array{checkpoint_schema});
-  if (root.at("provenance").value() != written(origin(spec)))
-    root.at("provenance").refuse("the checkpoint belongs to another manifest or another build of isojam");
+  if (root.at("provenance").value() != written(provenance_of(spec)))
+    root.at("provenance").refuse("the checkpoint belongs to another specification or another build of isojam");
   if (root.at("spec").value() != run_of(spec)) root.at("spec").refuse("the checkpoint belongs to another replicate");
   Document document{"", {}, {}, {}, {}, {}, begin_jam(read_packing(root.at("packing")), spec.options)};
   document.progress.result = {};

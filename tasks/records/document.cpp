@@ -71,14 +71,20 @@ void describe_spec(Fields& field) {
 
 }  // namespace
 
+/// The digest that identifies a replicate. Records of earlier versions have that of their manifest in its place.
+static void describe_digest(Fields& field, std::string& digest, std::string_view meaning) {
+  const auto read = [&digest](const JsonPlace& place) { digest = place.text(); };
+  const Json text{{"type", "string"}};
+  field("spec_digest", digest, meaning).optional();
+  field
+      .custom("manifest_digest", {[] { return Json(); }, read, text, "text"},
+              "Digest of the manifest; only in records of earlier versions of isojam, in place of `spec_digest`.")
+      .optional();
+}
+
 Provenance provenance_of(const ReplicateSpec& spec) {
-  Provenance provenance{std::string(version()),
-                        std::string(git_hash()),
-                        std::string(compiler()),
-                        spec.manifest_digest,
-                        spec.seed,
-                        {},
-                        {}};
+  Provenance provenance{
+      std::string(version()), std::string(git_hash()), std::string(compiler()), spec_digest(spec), spec.seed, {}, {}};
   if (spec.start) provenance.start = spec.start->files[static_cast<std::size_t>(spec.replicate)].path;
   return provenance;
 }
@@ -91,11 +97,11 @@ void describe(Fields& field, Addition& addition) {
   field.nested(
       "before",
       [&addition](Fields& before) {
-        before("manifest_digest", addition.manifest_digest, "Digest of the manifest before the addition.");
+        describe_digest(before, addition.spec_digest, "Digest of the specification, as in the record.");
         before("result_digest", addition.result_digest, "Digest of the record before the addition.");
       },
-      "Digests of the manifest and of the record before this addition. A packing file or path file that the addition "
-      "did not change still contains them.");
+      "Digests before this addition. A packing file or path file that the addition did not change still contains "
+      "them.");
 }
 
 void describe(Fields& field, Provenance& provenance) {
@@ -105,9 +111,9 @@ void describe(Fields& field, Provenance& provenance) {
       "Commit of the sources, with `-dirty` at its end if the sources had uncommitted changes. It is `unknown` if the "
       "sources were not in a git repository.");
   field("compiler", provenance.compiler, "Name and version of the compiler.");
-  field("manifest_digest", provenance.manifest_digest,
-        "Digest of the manifest in its canonical form. The keys `exclude`, `base`, `keep_path` and `replicates` do not "
-        "change the digest, because they may change within a results directory.");
+  describe_digest(field, provenance.spec_digest,
+                  "Digest of everything that determines the replicate: `spec` without its measures, and the seed. Two "
+                  "replicates with the same digest have the same states, whatever else their manifests request.");
   field("seed", provenance.seed, "Seed of the manifest.");
   field("start", provenance.start,
         "Path of the file with the initial configuration; absent if the initial configuration was random.");

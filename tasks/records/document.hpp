@@ -20,13 +20,13 @@ namespace isojam {
 struct Addition {
   std::vector<Measure> measures;
   std::string version, git, compiler;
-  std::string manifest_digest, result_digest;  ///< before the addition
+  std::string spec_digest, result_digest;  ///< before the addition
 };
 void describe(Fields& field, Addition& addition);
 
-/// The build, the manifest and the seed that produced a record or a checkpoint.
+/// The build, the specification and the seed that produced a record or a checkpoint.
 struct Provenance {
-  std::string version, git, compiler, manifest_digest;
+  std::string version, git, compiler, spec_digest;
   std::uint64_t seed = 0;
   std::optional<std::string> start;  ///< file of the initial configuration
   std::optional<std::vector<Addition>> added;

@@ -134,11 +134,11 @@ Record record_of(const Outcome& outcome) {
 Json with_added(Record record, const Record& before, const std::vector<Measure>& added) {
   const Provenance now = record.provenance;
   record.provenance = before.provenance;
-  record.provenance.manifest_digest = now.manifest_digest;
+  record.provenance.spec_digest = now.spec_digest;  // of a record of an earlier version, this was the manifest's
   auto& additions = record.provenance.added;
   if (!additions) additions.emplace();
   additions->push_back(
-      {added, now.version, now.git, now.compiler, before.provenance.manifest_digest, before.result_digest});
+      {added, now.version, now.git, now.compiler, before.provenance.spec_digest, before.result_digest});
   const auto stages = std::exchange(record.stage_seconds, before.stage_seconds);
   for (const auto measure : added) {
     const auto found = stages.find(std::string(to_string(measure)));
@@ -151,7 +151,7 @@ Json with_added(Record record, const Record& before, const std::vector<Measure>&
 }
 
 Record failed_record(Record before, const ReplicateSpec& spec) {
-  before.provenance.manifest_digest = spec.manifest_digest;
+  before.provenance.spec_digest = spec_digest(spec);
   before.spec = to_json(spec);
   before.timing = {};
   before.stage_seconds.clear();
@@ -160,15 +160,14 @@ Record failed_record(Record before, const ReplicateSpec& spec) {
 
 Json make_packing(const Outcome& outcome, const std::string& result_digest) {
   assert(!outcome.failure && !outcome.interrupted);
-  auto json =
-      state_file_head(packing_schema, {replicate_name(outcome.spec), outcome.spec.manifest_digest, result_digest});
+  auto json = state_file_head(packing_schema, {replicate_name(outcome.spec), spec_digest(outcome.spec), result_digest});
   json.update(to_json(outcome.jam.states[*nearest_state(outcome.jam)]));
   return json;
 }
 
 Json make_path(const Outcome& outcome, const std::string& result_digest) {
   assert(!outcome.failure && !outcome.interrupted);
-  auto json = state_file_head(path_schema, {replicate_name(outcome.spec), outcome.spec.manifest_digest, result_digest});
+  auto json = state_file_head(path_schema, {replicate_name(outcome.spec), spec_digest(outcome.spec), result_digest});
   json["states"] = Json::array();
   for (const auto& packing : outcome.jam.states) {
     Json state;

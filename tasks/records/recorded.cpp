@@ -37,16 +37,10 @@ std::string name_of(const RecordSummary& summary) {
 /// state the digests from before.
 std::vector<RecordIdentity> identities_of(const RecordedReplicate& replicate) {
   std::vector<RecordIdentity> identities{
-      {replicate.name, replicate.summary.manifest_digest, replicate.summary.result_digest}};
+      {replicate.name, replicate.document.provenance.spec_digest, replicate.summary.result_digest}};
   for (const auto& before : replicate.summary.before)
-    identities.push_back({replicate.name, before.manifest_digest, before.result_digest});
+    identities.push_back({replicate.name, before.spec_digest, before.result_digest});
   return identities;
-}
-
-bool has_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec) {
-  auto planned = spec;
-  planned.measures = replicate.summary.measures;
-  return replicate.record.at("spec") == to_json(planned);
 }
 
 /// Returns the result of `read`. An error of a record, packing or path gets the same remedy, unless it states its own.
@@ -130,30 +124,12 @@ RecordedReplicate read_record_without_states(const fs::path& directory, const st
   return replicate;
 }
 
-bool is_of(const RecordedReplicate& replicate, const Plan& plan) {
-  if (replicate.summary.manifest_digest == plan.manifest_digest()) return true;
-  if (is_of_sweep(plan.manifest(), replicate.summary.measures, replicate.summary.manifest_digest)) return true;
-  const auto place = plan.place_of(replicate.name);
-  return place && replicate.document.provenance.seed == plan.manifest().seed &&
-         has_spec(replicate, plan.at(place->point, place->replicate));
-}
-
-bool is_superseded(const RecordedReplicate& replicate, const Plan& plan) {
-  return replicate.summary.failed && plan.place_of(replicate.name) &&
-         replicate.document.provenance.seed == plan.manifest().seed && !is_of(replicate, plan);
-}
-
-std::vector<Measure> lacks(const RecordedReplicate& replicate, const Manifest& manifest) {
+std::vector<Measure> lacks(const RecordedReplicate& replicate, const std::vector<Measure>& measures) {
   const auto& has = replicate.summary.measures;
   std::vector<Measure> list;
-  std::copy_if(manifest.measures.begin(), manifest.measures.end(), std::back_inserter(list),
+  std::copy_if(measures.begin(), measures.end(), std::back_inserter(list),
                [&](Measure what) { return std::find(has.begin(), has.end(), what) == has.end(); });
   return list;
-}
-
-void check_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec) {
-  if (!has_spec(replicate, spec))
-    throw InputError({replicate.name, "/spec", "differs from the plan of the manifest", "", ""});
 }
 
 void check_companions(const fs::path& directory, const RecordedReplicate& replicate, bool with_path) {

@@ -31,17 +31,8 @@ RecordedReplicate read_abridged_record(const std::filesystem::path& directory, c
 /// nearest state, and its summary has no list of states.
 RecordedReplicate read_record_without_states(const std::filesystem::path& directory, const std::string& name);
 
-/// True if the record has the result that this plan requests, apart from measures. This is the case if the identity()
-/// of its manifest and that of the plan differ at most in the measures. It is also the case if only the sweep has
-/// changed, and the seed and the specification of this replicate are the same.
-bool is_of(const RecordedReplicate& replicate, const Plan& plan);
-/// True if the replicate failed and the plan has other settings for it, so that it must be computed again.
-bool is_superseded(const RecordedReplicate& replicate, const Plan& plan);
-/// The measures of a manifest that the record does not have, because they were added to the manifest later.
-std::vector<Measure> lacks(const RecordedReplicate& replicate, const Manifest& manifest);
-
-/// Throws InputError unless the specification in the record is equal to `spec`, apart from measures.
-void check_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec);
+/// Those of the measures that the record does not have.
+std::vector<Measure> lacks(const RecordedReplicate& replicate, const std::vector<Measure>& measures);
 
 /// Checks the packing file of a replicate, and also its path file if `with_path` is true. Does nothing if the replicate
 /// failed. Throws FileError if a file cannot be read at the moment. Throws InputError if a file is missing or damaged,

@@ -16,7 +16,10 @@ template <class TextAt>
 std::string difference(std::string_view schema, const RecordIdentity& identity, const TextAt& text_at) {
   const Json expected = state_file_head(schema, identity);
   for (const auto& item : expected.items()) {
-    if (text_at(item.key()) != item.value().get<std::string>()) return item.key();
+    const auto& key = item.key();
+    // Files of earlier versions have the digest of the manifest in place of that of the specification.
+    const auto text = key == "spec_digest" && text_at(key).empty() ? text_at("manifest_digest") : text_at(key);
+    if (text != item.value().get<std::string>()) return key;
   }
   return "";
 }
@@ -37,7 +40,7 @@ Json state_file_head(std::string_view schema, const RecordIdentity& identity) {
   Json json;
   json["schema"] = schema;
   json["replicate"] = identity.replicate;
-  json["manifest_digest"] = identity.manifest_digest;
+  json["spec_digest"] = identity.spec_digest;
   json["result_digest"] = identity.result_digest;
   return json;
 }

@@ -12,7 +12,7 @@ namespace isojam {
 /// whether an undamaged file belongs to another replicate, or to another run of the same replicate.
 struct RecordIdentity {
   std::string replicate;  ///< name of the replicate
-  std::string manifest_digest, result_digest;
+  std::string spec_digest, result_digest;
 };
 
 /// The first members of a packing file or a path file.

@@ -21,98 +21,7 @@ namespace isojam {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr auto digest_pointer = "/provenance/manifest_digest", recomputed = "the replicate is recomputed";
-
-std::string digests(const std::string& theirs, const std::string& ours) {
-  return fmt::format("digest {} instead of {}", theirs, ours);
-}
-
-[[noreturn]] void refuse_other(const std::string& file, std::string pointer, const std::string& difference) {
-  throw InputError({file, std::move(pointer), fmt::format("{} ({})", other_manifest, difference), "", "",
-                    std::string(choose_another_directory)});
-}
-
-/// Reports that the manifest requests another result than the one that a record of its plan has.
-void refuse_changed(const fs::path& directory, const RecordedReplicate& held, const Plan& plan) {
-  const auto place = plan.place_of(held.name);
-  auto spec = to_json(plan.at(place->point, place->replicate));
-  spec["measure"] = held.record.at("spec").at("measure");
-  const auto patch = Json::diff(held.record.at("spec"), spec);
-  if (patch.empty()) return;
-  const auto pointer = patch.front().at("path").get<std::string>();
-  const Json::json_pointer at(pointer);
-  const auto shown = [&](const Json& json) { return json.contains(at) ? compact(json.at(at)) : "not given"; };
-  throw InputError({(directory / "records" / (held.name + ".json")).string(), "/spec" + pointer,
-                    fmt::format("{} in the record, {} in this manifest, and only failed replicates are computed again",
-                                shown(held.record.at("spec")), shown(spec)),
-                    "", "", fmt::format("restore the setting, or {}", choose_another_directory)});
-}
-
-/// Advice for the user if the manifest requests measures that the directory does not have.
-std::string how_to_add(const fs::path& directory, const Manifest& theirs, const Manifest& ours) {
-  std::string names;
-  for (const auto what : ours.measures) {
-    if (std::find(theirs.measures.begin(), theirs.measures.end(), what) != theirs.measures.end()) continue;
-    names += (names.empty() ? "" : ",") + std::string(to_string(what));
-  }
-  return fmt::format("set \"measure\" to {}, or run \"isojam measure {} --add {}\" first",
-                     compact(to_json(theirs).at("measure")), directory.string(), names);
-}
-
-/// True if both manifests have the same parameters for each single solid of `part`.
-bool has_settings_of(const Manifest& whole, const Manifest& part) {
-  const auto own = [](const Manifest& manifest, const Mixture& solid) {
-    const auto found = manifest.by_solid.find(to_string(solid));
-    return found == manifest.by_solid.end() ? Json() : found->second.parameters;
-  };
-  return std::all_of(part.solids.begin(), part.solids.end(),
-                     [&](const Mixture& solid) { return own(whole, solid) == own(part, solid); });
-}
-
-/// Manifest of the directory; nullopt if it has none. Throws if the directory belongs to another manifest. One of the
-/// two sweeps may have more values than the other.
-std::optional<Manifest> manifest_in(const fs::path& directory, const Manifest& manifest) {
-  const auto path = directory / "manifest.json";
-  auto theirs = stored_manifest(directory);
-  if (!theirs || digest(*theirs) == digest(manifest)) return theirs;
-  const bool is_growth =
-      contains_sweep(manifest, *theirs) || (contains_sweep(*theirs, manifest) && has_settings_of(*theirs, manifest));
-  // Before the first record, the measures can still change.
-  const bool is_begun = !names_in(directory / "records").empty() || !contains_sweep(manifest, *theirs);
-  if (is_growth && (theirs->measures == manifest.measures || !is_begun)) return theirs;
-  if (is_growth)
-    throw InputError({path.string(), "/measure", "the directory has other measures than the manifest", "", "",
-                      how_to_add(directory, *theirs, manifest)});
-  refuse_other(directory.string(), "", differences(*theirs, manifest));
-}
-
-/// The manifest with the larger sweep. If the sweeps are the same, the new manifest.
-const Manifest& larger(const std::optional<Manifest>& before, const Manifest& manifest) {
-  return !before || contains_sweep(manifest, *before) ? manifest : *before;
-}
-
-/// Throws if a record belongs to another manifest. Checks the records that are not in the plan. If `all` is true,
-/// checks all records. `all` is true if the directory has no manifest or a manifest with another digest.
-void check_records(const fs::path& directory, const Manifest& manifest, bool all) {
-  const auto names = names_in(directory / "records");
-  if (names.empty()) return;
-  const Plan plan(manifest);
-  const auto ours = digest(manifest);
-  for (const auto& name : names) {
-    const bool planned = plan.place_of(name).has_value();
-    if (planned && !all) continue;
-    std::optional<RecordedReplicate> held;
-    try {
-      held = read_record(directory, name);
-    } catch (const InputError&) {
-      continue;
-    }
-    if (is_of(*held, plan) || is_superseded(*held, plan)) continue;
-    if (planned) refuse_changed(directory, *held, plan);
-    if (const auto& theirs = held->summary.manifest_digest; theirs != ours)
-      refuse_other((directory / "records" / (name + ".json")).string(), digest_pointer, digests(theirs, ours));
-  }
-}
+constexpr auto recomputed = "the replicate is recomputed";
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
@@ -144,31 +53,43 @@ void remove_outlived_checkpoints(const fs::path& directory) {
   }
 }
 
-/// Number of replicates and stopping rule to be stored. A plan never becomes smaller: with fewer replicates than
-/// before, the earlier number and stopping rule are kept.
-Manifest grown(Manifest manifest, const std::optional<Manifest>& before) {
-  if (!before) return manifest;
-  auto& replicates = manifest.replicates;
-  if (!replicates.goal && replicates.max <= before->replicates.max) replicates = before->replicates;
-  replicates.max = std::max(replicates.max, before->replicates.max);
-  return manifest;
+/// True if a file has its checksum.
+bool is_whole(const fs::path& file) {
+  try {
+    check_seal(read_file(file), file.string());
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
-/// Writes the manifest to the directory, and returns the manifest that is then stored. Throws if the directory belongs
-/// to another manifest.
-Manifest claim(const fs::path& directory, const Manifest& manifest) {
-  const auto path = directory / "manifest.json";
-  auto before = manifest_in(directory, manifest);
-  if (!before && write_exclusively(path, sealed(to_json(manifest)))) return manifest;
-  if (!before) before = manifest_in(directory, manifest);
-  auto kept = grown(manifest, before);
-  if (const auto& all = larger(before, manifest); &all != &manifest) {
-    kept = *before;
-    kept.replicates.max = std::max(kept.replicates.max, manifest.replicates.max);
+/// Removes a damaged manifest.json, of which manifests/ has a copy.
+void remove_damaged_manifest(const fs::path& directory, const Warn& warn) {
+  try {
+    stored_manifest(directory);
+  } catch (const InputError& error) {
+    if (is_whole(directory / "manifest.json")) throw;
+    warn(problem_line(error.details()) + "; the file is replaced");
+    fs::remove(directory / "manifest.json");
   }
-  const auto text = sealed(to_json(kept));
-  if (text != read_file(path)) write_atomically(path, text);
-  return kept;
+}
+
+/// Locks the directory. A manifest that is in conflict with a later one begins only while nobody uses the directory.
+DirectoryLock lock_for(const fs::path& directory, const Manifest& manifest, const Warn& warn,
+                       DirectoryLock::Kind kind) {
+  const Plan plan(manifest);
+  const auto json = to_json(manifest);
+  for (const auto& other : requests_in(directory, warn)) {
+    if (to_json(other.manifest()) == json) break;
+    if (are_in_conflict(plan, other)) kind = DirectoryLock::Kind::exclusive;
+  }
+  auto lock = DirectoryLock::take(directory, kind);
+  if (!lock)
+    throw FileError(
+        directory.string() +
+            ": another process of isojam is using this directory; repeat this command after that process has ended",
+        FileError::Reason::resource_failure);
+  return *std::move(lock);
 }
 
 }  // namespace
@@ -182,27 +103,45 @@ void throw_without_records(const fs::path& directory) {
   throw FileError(fmt::format("{}: {}", directory.string(), problem), FileError::Reason::missing);
 }
 
-void check_directory(const fs::path& directory, const Manifest& manifest) {
+void check_directory(const fs::path& directory, const Manifest& manifest, const Requests& checked) {
   refuse_links(directory);
-  const auto before = manifest_in(directory, manifest);
-  check_records(directory, larger(before, manifest), !before || digest(*before) != digest(manifest));
+  const Plan plan(manifest);
+  for (const auto& name : names_in(directory / "records")) {
+    const auto place = plan.place_of(name);
+    if (!place || !plan.requests(*place)) continue;
+    const auto spec = plan.at(place->point, place->replicate);
+    const auto known = is_asked_for(checked, name) ? requested(checked, name) : std::nullopt;
+    if (known && spec_digest(*known) == spec_digest(spec)) continue;
+    std::optional<RecordedReplicate> held;
+    try {
+      held = read_record_without_states(directory, name);
+    } catch (const InputError&) {
+      continue;
+    }
+    if (standing_of(*held, spec) == Standing::foreign) throw conflict_of(directory, *held, spec);
+  }
 }
 
-Store::Store(fs::path directory, const Manifest& manifest, Warn warn)
-    : directory_(std::move(directory)),
-      digest_(digest(manifest)),
-      keep_path_(manifest.keep_path),
-      warn_(std::move(warn)) {
-  check_directory(directory_, manifest);
+Store::Store(fs::path directory, const Manifest& manifest, Warn warn, DirectoryLock::Kind kind)
+    : directory_(std::move(directory)), manifest_(manifest), warn_(std::move(warn)) {
+  if (std::error_code error; fs::exists(directory_, error) && !fs::is_directory(directory_, error))
+    throw FileError(directory_.string() + ": is a file; give a directory with -o", FileError::Reason::missing);
+  refuse_links(directory_);
   make_own_folder(directory_);
-  kept_ = claim(directory_, manifest);
-  plan_ = std::make_shared<const Plan>(kept_);
-  // Another process may have written its manifest in the meantime, so check again.
-  manifest_in(directory_, manifest);
+  make_own_folder(directory_ / "manifests");
+  const auto turn = DirectoryLock::wait_for(directory_ / "manifests");
+  remove_damaged_manifest(directory_, warn_);
+  const auto last = stored_manifest(directory_);
+  if (!last || to_json(*last) != to_json(manifest))
+    check_directory(directory_, manifest, last ? Requests{Plan(*last)} : Requests{});
+  lock_ = lock_for(directory_, manifest, warn_, kind);
+  request(directory_, manifest);
   for (const auto* folder : {"records", "packings", "checkpoints"}) make_own_folder(directory_ / folder);
-  if (keep_path_) make_own_folder(directory_ / "paths");
+  if (manifest.keep_path) make_own_folder(directory_ / "paths");
   remove_outlived_checkpoints(directory_);
   check_writable(directory_ / "records");
+  locks_.emplace(directory_ / "checkpoints" / ".locks");
+  if (kind == DirectoryLock::Kind::shared) lock_->share();
 }
 
 fs::path Store::file(const char* folder, const ReplicateSpec& spec) const {
@@ -213,27 +152,35 @@ std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
   const auto path = record_path(spec).string();
   std::error_code error;
   if (fs::symlink_status(path, error).type() == fs::file_type::not_found) return std::nullopt;
-  std::string theirs;
+  std::optional<InputError> conflict;
   try {
     auto held = read_record(directory_, replicate_name(spec));
-    if (!is_of(held, *plan_)) {
-      if (is_superseded(held, *plan_)) return std::nullopt;
-      theirs = held.summary.manifest_digest;
-    } else {
-      check_spec(held, spec);
-      check_companions(directory_, held, keep_path_);
-      if (!lacks(held, kept_).empty())
-        throw InputError({path, "/spec/measure",
-                          "lacks measures that were added to the manifest later (\"isojam measure\" would add them in "
-                          "less time)",
-                          "", ""});
-      return std::move(held.summary);
+    const auto standing = standing_of(held, spec);
+    if (standing == Standing::superseded) return std::nullopt;
+    if (standing == Standing::requested) {
+      check_companions(directory_, held, manifest_.keep_path);
+      if (lacks(held, spec.measures).empty()) return std::move(held.summary);
+      warn_(path + ": lacks measures of the manifest; " + recomputed +
+            " (\"isojam measure\" would add them in less time)");
+      return std::nullopt;
     }
+    conflict = conflict_of(directory_, held, spec);
   } catch (const InputError& damage) {
     warn_(fmt::format("{}; {}", problem_line(damage.details()), recomputed));
+    return std::nullopt;
   }
-  if (!theirs.empty()) refuse_other(path, digest_pointer, digests(theirs, digest_));
-  return std::nullopt;
+  throw *conflict;
+}
+
+void Store::keep_measures(ReplicateSpec& spec) const {
+  try {
+    const auto held = read_record(directory_, replicate_name(spec));
+    if (held.summary.spec_digest != spec_digest(spec)) return;
+    spec.measures.insert(spec.measures.end(), held.summary.measures.begin(), held.summary.measures.end());
+    sort_measures(spec.measures);
+  } catch (const InputError&) {
+    return;  // there is no record, or it is damaged
+  }
 }
 
 std::optional<Checkpoint> Store::checkpoint(const ReplicateSpec& spec) const {
@@ -260,12 +207,14 @@ void Store::write(const Outcome& outcome) const {
   const auto record = make_record(outcome);
   const auto digest = record.at("result_digest").get<std::string>();
   if (!outcome.failure) write_atomically(packing_path(outcome.spec), sealed(make_packing(outcome, digest)));
-  if (!outcome.failure && keep_path_) write_atomically(path_path(outcome.spec), sealed(make_path(outcome, digest)));
+  if (!outcome.failure && manifest_.keep_path)
+    write_atomically(path_path(outcome.spec), sealed(make_path(outcome, digest)));
   write_atomically(record_path(outcome.spec), sealed(record));
   // If the checkpoint cannot be removed, it does no harm: the record takes precedence, and the next run removes the
   // checkpoint.
   std::error_code ignored;
   fs::remove(checkpoint_path(outcome.spec), ignored);
+  release(outcome.spec);
 }
 
 void Store::write_added(const Outcome& outcome, const RecordedReplicate& before, bool moved) const {
@@ -298,30 +247,18 @@ void Store::write_added(const ReplicateSpec& spec, const RecordedReplicate& fail
   write_atomically(record_path(spec), sealed(with_added(failed_record(failed.document, spec), failed.document, {})));
 }
 
-Manifest extend_manifest(const fs::path& directory, const std::vector<Measure>& more) {
-  const auto before = own_manifest(directory);
-  auto manifest = with_measures(before, more);
-  if (manifest.measures != before.measures) write_atomically(directory / "manifest.json", sealed(to_json(manifest)));
-  return manifest;
-}
-
 void Store::write_tables(const Json& tables) const { write_atomically(tables_path(), sealed(tables)); }
 
 void for_each_record(const fs::path& directory, const Warn& warn, const std::function<void(RecordedReplicate)>& use,
-                     ReadRecord read) {
-  for_each_record(directory, stored_manifest(directory), warn, use, read);
-}
-
-void for_each_record(const fs::path& directory, const std::optional<Manifest>& manifest, const Warn& warn,
-                     const std::function<void(RecordedReplicate)>& use, ReadRecord read_one) {
+                     ReadRecord read_one) {
   const auto names = names_in(directory / "records");
   if (names.empty()) throw_without_records(directory);
-  const auto plan = manifest ? std::optional<Plan>(*manifest) : std::nullopt;
-  const auto own = manifest ? digest(*manifest) : "";
-  const auto measures = manifest ? to_json(*manifest).at("measure") : Json();
+  const auto requests = requests_in(directory, warn);
   struct Read {
     std::string name;
     std::optional<RecordedReplicate> held{};
+    Standing standing = Standing::requested;
+    bool is_asked_for = true;
     std::exception_ptr error{};
   };
   std::size_t count = 0;
@@ -332,30 +269,36 @@ void for_each_record(const fs::path& directory, const std::optional<Manifest>& m
   const auto read = [&](const std::string& name) {
     Read one{name};
     try {
-      one.held = read_one(directory, name);
-    } catch (const InputError&) {
-      if (!plan || plan->place_of(name)) one.error = std::current_exception();
+      std::optional<ReplicateSpec> spec;
+      for (const auto& plan : requests) {
+        const auto place = plan.place_of(name);
+        if (place && !spec) spec = plan.at(place->point, place->replicate);
+        one.is_asked_for = place && plan.requests(*place);
+        if (one.is_asked_for) break;
+      }
+      try {
+        one.held = read_one(directory, name);
+      } catch (const InputError&) {
+        if (spec || requests.empty()) throw;
+      }
+      if (one.held && !requests.empty()) one.standing = standing_of(*one.held, spec);
     } catch (...) {
       one.error = std::current_exception();
     }
     return one;
   };
-  const auto file_of = [&](const std::string& name) { return (directory / "records" / (name + ".json")).string(); };
+  std::size_t unasked = 0;
+  std::string example;
   const auto pass_on = [&](Read one) {
     // Thrown here instead of in `read`, so that the first error of the list is reported.
     if (one.error) std::rethrow_exception(one.error);
+    const auto file = (directory / "records" / (one.name + ".json")).string();
     if (!one.held) {
-      warn(file_of(one.name) +
-           ": is ignored, because the manifest has no such replicate; remove the file, or correct its name");
-    } else if (plan && one.held->summary.manifest_digest != own && !is_of(*one.held, *plan)) {
-      if (is_superseded(*one.held, *plan)) return;
-      warn(fmt::format("{}: {}; the record is ignored", file_of(one.held->name), other_manifest));
-    } else {
-      // A record without a measure still counts for the quantities that it has.
-      if (manifest) {
-        one.held->summary.settings["measure"] = measures;
-        one.held->summary.study = own;
-      }
+      warn(file + ": is ignored, because no manifest has such a replicate; remove the file, or correct its name");
+    } else if (one.standing == Standing::foreign) {
+      warn(fmt::format("{}: {}; the record is ignored", file, other_manifest));
+    } else if (one.standing == Standing::requested) {
+      if (!one.is_asked_for && unasked++ == 0) example = one.name;
       use(*std::move(one.held));
     }
   };
@@ -364,6 +307,9 @@ void for_each_record(const fs::path& directory, const std::optional<Manifest>& m
                          tbb::make_filter<void, std::string>(tbb::filter_mode::serial_in_order, next) &
                              tbb::make_filter<std::string, Read>(tbb::filter_mode::parallel, read) &
                              tbb::make_filter<Read, void>(tbb::filter_mode::serial_in_order, pass_on));
+  if (unasked > 0)
+    warn(fmt::format("{}: no manifest requests {} of the records, for example {}; they count too", directory.string(),
+                     unasked, example));
 }
 
 }  // namespace isojam

@@ -2,55 +2,60 @@
 
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tasks/io/directory_lock.hpp"
 #include "tasks/manifest/manifest.hpp"
 #include "tasks/manifest/plan.hpp"
 #include "tasks/records/recorded.hpp"
 #include "tasks/records/replicate.hpp"
+#include "tasks/records/requests.hpp"
 #include "tasks/records/summary.hpp"
 
 namespace isojam {
 
-/// Function that receives warnings.
-using Warn = std::function<void(const std::string&)>;
+/// Checks whether the replicates of this manifest may be computed in a directory. It only reads files. Throws InputError
+/// if a replicate is recorded there with another specification, unless it failed: such a replicate is computed again.
+/// Damaged records are ignored: a record of the plan will be recomputed, and for others for_each_record() gives a
+/// warning. Throws FileError if a file cannot be read at the moment, or if one of the folders is a symbolic link,
+/// because results would then be written to another directory. `checked` are manifests for which the function does not
+/// read the records again.
+void check_directory(const std::filesystem::path& directory, const Manifest& manifest, const Requests& checked = {});
 
-/// Checks whether results of this manifest may be written to a directory. It only reads files. Throws InputError if the
-/// directory has another manifest or records of another manifest; the error states what differs. The sweep of
-/// `manifest` may be larger or smaller than that of the directory. Settings of failed replicates may have changed;
-/// these replicates are computed again. Damaged records are ignored: a record of the plan will be recomputed, and for
-/// others for_each_record() gives a warning. Throws FileError if a file cannot be read at the moment, or if one of the
-/// folders is a symbolic link, because results would then be written to another directory.
-void check_directory(const std::filesystem::path& directory, const Manifest& manifest);
-
-/// A results directory. It contains manifest.json, tables.json, and the folders records/, packings/, paths/ and
-/// checkpoints/ with one file for each replicate. All files are written atomically and have a checksum. Records,
-/// packings and paths change only if measures are added, or if a replicate is repeated. A checkpoint is replaced after
-/// every strain step, and deleted when the record of its replicate is written. There is no index, so several shards can
-/// write to the directory at the same time. If several processes with different manifests start in an empty directory
-/// at the same time, the directory belongs to one of them; for the others, the constructor throws InputError.
+/// A results directory. It contains manifest.json, tables.json, the folder manifests/ (see requests.hpp), and the
+/// folders records/, packings/, paths/ and checkpoints/ with one file for each replicate. All files are written
+/// atomically and have a checksum. Records, packings and paths change only if measures are added, or if a replicate is
+/// repeated. A checkpoint is replaced after every strain step, and deleted when the record of its replicate is written.
+/// There is no index, so several processes can write to the directory at the same time, also for different manifests. A
+/// process begins with a manifest that is in conflict with another one only while no other process uses the directory.
 class Store {
  public:
-  /// Opens the directory for a manifest, and creates the directory and its folders if they are missing. Calls
-  /// check_directory() before it writes anything, and throws the same exceptions. Throws FileError if the directory
-  /// cannot be written.
-  Store(std::filesystem::path directory, const Manifest& manifest, Warn warn);
+  /// Opens the directory for a manifest, which becomes its last one, and creates the directory and its folders if they
+  /// are missing. Holds a lock on the directory. Calls check_directory() before it writes anything, and throws the same
+  /// exceptions. Throws FileError if another process holds a lock that excludes this one, or if the directory cannot be
+  /// written.
+  Store(std::filesystem::path directory, const Manifest& manifest, Warn warn,
+        DirectoryLock::Kind kind = DirectoryLock::Kind::shared);
 
   /// Summary of the record of this replicate; nullopt if there is no valid record. The replicate must then be computed.
-  /// A superseded record is not valid, see is_superseded(). A record is also not valid in these cases, in which `warn`
-  /// is called:
+  /// The record of a failed replicate with another specification is not valid. A record is also not valid in these
+  /// cases, in which `warn` is called:
   /// - The file of the record is damaged.
   /// - The record does not have all measures of the manifest.
   /// - The record states a resource failure.
   /// - The packing of the replicate is damaged or missing.
   /// - The manifest keeps paths, and the path of the replicate is damaged or missing.
   ///
-  /// Throws InputError if the record belongs to another manifest. Throws FileError if a file cannot be read at the
+  /// Throws InputError if a replicate that did not fail has another specification. Throws FileError if a file cannot be read at the
   /// moment; such a file does not count as damaged.
   std::optional<RecordSummary> recorded(const ReplicateSpec& spec) const;
+  /// Adds the measures of a record, valid or not, to the specification from which its replicate is computed again.
+  void keep_measures(ReplicateSpec& spec) const;
+  /// Lock on a replicate that is being computed. Returns false if another process has it.
+  bool take(const ReplicateSpec& spec) const { return locks_->take(replicate_name(spec)); }
+  void release(const ReplicateSpec& spec) const { locks_->release(replicate_name(spec)); }
   /// Reads the checkpoint of a replicate; nullopt if there is none. If the checkpoint is damaged or belongs to another
   /// build, returns nullopt after a warning. Throws FileError if it cannot be read at the moment.
   std::optional<Checkpoint> checkpoint(const ReplicateSpec& spec) const;
@@ -70,9 +75,7 @@ class Store {
   void write_tables(const Json& tables) const;
 
   const std::filesystem::path& directory() const { return directory_; }
-  /// The manifest in manifest.json. It may have more replicates and a larger sweep than the manifest with which the
-  /// store was opened.
-  const Manifest& kept() const { return kept_; }
+  const Manifest& manifest() const { return manifest_; }
   std::filesystem::path record_path(const ReplicateSpec& spec) const { return file("records", spec); }
   std::filesystem::path packing_path(const ReplicateSpec& spec) const { return file("packings", spec); }
   std::filesystem::path path_path(const ReplicateSpec& spec) const { return file("paths", spec); }
@@ -83,17 +86,11 @@ class Store {
   std::filesystem::path file(const char* folder, const ReplicateSpec& spec) const;
 
   std::filesystem::path directory_;
-  std::string digest_;
-  bool keep_path_;
+  Manifest manifest_;
   Warn warn_;
-  Manifest kept_;
-  std::shared_ptr<const Plan> plan_;  // of kept_
+  std::optional<DirectoryLock> lock_;
+  std::optional<NameLocks> locks_;
 };
-
-/// Adds measures to the manifest in the directory, and returns the new manifest. It does not compute them: existing
-/// records do not have these measures yet. Throws the same exceptions as own_manifest(), and FileError if the manifest
-/// cannot be written.
-Manifest extend_manifest(const std::filesystem::path& directory, const std::vector<Measure>& more);
 
 /// Throws the FileError for a path that is not a directory, or for a directory that has no records.
 [[noreturn]] void throw_without_records(const std::filesystem::path& directory);
@@ -101,14 +98,12 @@ Manifest extend_manifest(const std::filesystem::path& directory, const std::vect
 /// Function that reads a record: read_record() or read_abridged_record().
 using ReadRecord = RecordedReplicate (*)(const std::filesystem::path& directory, const std::string& name);
 
-/// Passes the records of a results directory to `use`, one at a time, in the order of their names. Some records are
-/// skipped with a warning: records of another manifest, and damaged records that are not in the plan of `manifest`.
-/// Superseded records are skipped without a warning, see is_superseded(). If `manifest` is nullopt, no record is
-/// skipped. Throws InputError for any other damaged record. Throws FileError if the directory has no records, or if a
-/// record cannot be read at the moment.
-void for_each_record(const std::filesystem::path& directory, const std::optional<Manifest>& manifest, const Warn& warn,
-                     const std::function<void(RecordedReplicate)>& use, ReadRecord read = read_record);
-/// The same loop with the manifest in the directory, if there is one.
+/// Passes the records of a results directory to `use`, one at a time, in the order of their names. If the directory has
+/// manifests, some records are skipped with a warning: those that have another specification than requested() gives to
+/// their names, and damaged ones whose sweep point no manifest has. A failed record with another specification is
+/// skipped without a warning. Also warns about records that no manifest requests, because their numbers are too large.
+/// Throws InputError for any other damaged record. Throws FileError if the directory has no records, or if a record
+/// cannot be read at the moment.
 void for_each_record(const std::filesystem::path& directory, const Warn& warn,
                      const std::function<void(RecordedReplicate)>& use, ReadRecord read = read_record);
 

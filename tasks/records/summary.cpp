@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tasks/io/place.hpp"
+#include "tasks/manifest/plan.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/measure/trough_parts.hpp"
 #include "tasks/packings/mixture_json.hpp"
@@ -127,16 +128,19 @@ RecordSummary summarise_record(const Record& record, const Json& json, const std
   summary.particles = static_cast<int>(spec.at("particles").integer({1, 1e9}));
   summary.parameters = spec.at("parameters").value();
   summary.replicate = static_cast<int>(spec.at("replicate").integer({0, 1e9}));
-  summary.study = summary.manifest_digest = record.provenance.manifest_digest;
+  summary.seed = record.provenance.seed;
+  summary.spec_digest = spec_digest(record.spec, summary.seed);
+  // Replicates from the same file are compared too, and those from different files are different replicates.
+  summary.study = spec.has("start") ? fmt::format("{} {}", summary.seed, compact(spec.at("start").value()))
+                                    : std::to_string(summary.seed);
   summary.build = build_text(record.provenance);
   for (const auto& addition : record.provenance.added.value_or(std::vector<Addition>{}))
-    summary.before.push_back({addition.manifest_digest, addition.result_digest, build_text(addition)});
+    summary.before.push_back({addition.spec_digest, addition.result_digest, build_text(addition)});
   const auto& measures = spec.at("measure");
   for (std::size_t k = 0; k < measures.expect_list("a list of measures"); ++k)
     summary.measures.push_back(measures.at(k).choice<Measure>());
   summary.nearest_only = record.nearest_only.value_or(std::vector<Measure>{});
-  for (const std::string key : {"protocol", "minimiser", "measure", "modes"})
-    summary.settings[key] = spec.at(key).value();
+  for (const std::string key : {"protocol", "minimiser", "modes"}) summary.settings[key] = spec.at(key).value();
   const bool is_sheared =
       std::find(summary.measures.begin(), summary.measures.end(), Measure::shear) != summary.measures.end();
   if (is_sheared && spec.has("shear")) summary.settings["shear"] = spec.at("shear").value();

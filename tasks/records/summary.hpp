@@ -33,20 +33,20 @@ struct RecordSummary {
   int particles = 0;
   Json parameters;
   int replicate = 0;
-  std::string manifest_digest;
-  /// Identifies the study whose replicates are compared with each other: the digest of the manifest of the directory,
-  /// or manifest_digest if the directory has no manifest. The two differ if the sweep was enlarged after the record was
-  /// made.
+  std::uint64_t seed = 0;
+  std::string spec_digest;  ///< see spec_digest()
+  /// Identifies the random numbers or the file from which replicates with the same number start. Such replicates are
+  /// compared with each other.
   std::string study;
   /// The digests of a record before measures were added, and the build that added them.
   struct Before {
-    std::string manifest_digest, result_digest, added_by;
+    std::string spec_digest, result_digest, added_by;
   };
   /// one element for each time that measures were added
   std::vector<Before> before;
   std::vector<Measure> measures;  ///< measures of the record, without those that this version of isojam does not know
   std::vector<Measure> nearest_only;  ///< measures whose values are only those of the nearest state
-  Json settings;                      ///< protocol, minimiser, measures, modes; also shear if it was measured
+  Json settings;                      ///< protocol, minimiser, modes; also shear if it was measured
   std::string build;                  ///< version, commit and compiler of the program that made the record
   /// result_digest() of the record; two records with the same result have the same digest
   std::string result_digest;

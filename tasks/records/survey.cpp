@@ -13,6 +13,7 @@
 #include "tasks/measure/quantity.hpp"
 #include "tasks/records/checkpoint.hpp"
 #include "tasks/records/recorded.hpp"
+#include "tasks/records/requests.hpp"
 #include "tasks/records/texts.hpp"
 
 namespace isojam {
@@ -47,44 +48,51 @@ struct CpuTimes {
   double ratio(double otherwise) const { return measured > 0 && estimated > 0 ? measured / estimated : otherwise; }
 };
 
-void survey_records(const fs::path& directory, const Plan& plan, bool with_paths, Survey& survey) {
-  std::vector<CpuTimes> times(survey.points.size());
+/// Counts a record of this plan.
+void count(const RecordSummary& summary, const Plan& plan, const Plan::Place& place, const ReplicateSpec& spec,
+           Survey& survey, CpuTimes& times) {
+  auto& point = survey.points[place.point];
+  ++point.recorded;
+  if (const auto& goal = plan.manifest().replicates.goal) {
+    point.goal_values[place.replicate] =
+        has_any(summary, plan.exclude()) ? std::nullopt : summary.values[*quantity_index(goal->quantity)];
+  }
+  point.failed += summary.failed;
+  point.flagged += summary.flagged;
+  for (const auto flag : summary.flags) ++survey.flags[flag];
+  if (summary.failed) return;
+  times.measured += summary.cpu_seconds;
+  times.estimated += estimated_cost(spec, false).cpu_seconds;
+  ++survey.calibration_records;
+}
+
+using TimesOfPoints = std::vector<CpuTimes>;
+
+void survey_records(const fs::path& directory, const std::vector<Plan>& plans, Surveys& surveys,
+                    std::vector<TimesOfPoints>& times) {
+  const bool with_paths = !plans.empty() && plans.front().manifest().keep_path;
   for (const auto& name : names_in(directory / "records")) {
     try {
       const auto held = read_record_without_states(directory, name);
-      const auto& summary = held.summary;
-      const auto place = plan.place_of(name);
-      if (!place) {
-        ++survey.unplanned;
-        continue;
-      }
       check_companions(directory, held, with_paths);
-      const auto spec = plan.at(place->point, place->replicate);
-      if (is_superseded(held, plan)) continue;
-      if (!is_of(held, plan)) {
-        survey.others.push_back(name);
-        survey.damaged.push_back(fmt::format("{}: {}", name, other_manifest));
-        continue;
+      bool is_asked_for = false;
+      for (std::size_t k = 0; k < plans.size(); ++k) {
+        const auto place = plans[k].place_of(name);
+        if (!place || !plans[k].requests(*place)) continue;
+        const auto spec = plans[k].at(place->point, place->replicate);
+        if (standing_of(held, spec) != Standing::requested) continue;
+        is_asked_for = true;
+        surveys.of_plans[k].lacking += !lacks(held, spec.measures).empty();
+        count(held.summary, plans[k], *place, spec, surveys.of_plans[k], times[k][place->point]);
       }
-      check_spec(held, spec);
-      survey.lacking += !lacks(held, plan.manifest()).empty();
-      auto& point = survey.points[place->point];
-      ++point.recorded;
-      if (const auto& goal = plan.manifest().replicates.goal) {
-        point.goal_values[place->replicate] =
-            has_any(summary, plan.exclude()) ? std::nullopt : summary.values[*quantity_index(goal->quantity)];
-      }
-      point.failed += summary.failed;
-      point.flagged += summary.flagged;
-      for (const auto flag : summary.flags) ++survey.flags[flag];
-      if (summary.failed) continue;
-      times[place->point].measured += summary.cpu_seconds;
-      times[place->point].estimated += estimated_cost(spec, false).cpu_seconds;
-      ++survey.calibration_records;
+      if (!is_asked_for) surveys.unasked.push_back(name);
     } catch (const InputError& damage) {
-      survey.damaged.emplace_back(damage.what());
+      surveys.damaged.emplace_back(damage.what());
     }
   }
+}
+
+void calibrate(const TimesOfPoints& times, Survey& survey) {
   CpuTimes all;
   for (const auto& point : times) {
     all.measured += point.measured;
@@ -94,16 +102,21 @@ void survey_records(const fs::path& directory, const Plan& plan, bool with_paths
     survey.points[point].calibration = times[point].ratio(all.ratio(1));
 }
 
-void survey_checkpoints(const fs::path& directory, const Plan& plan, Survey& survey) {
+void survey_checkpoints(const fs::path& directory, const std::vector<Plan>& plans, Surveys& surveys) {
   const auto recorded = names_in(directory / "records");
   for (const auto& name : names_in(directory / "checkpoints")) {
-    const auto place = plan.place_of(name);
-    if (!place || std::binary_search(recorded.begin(), recorded.end(), name)) continue;
+    if (std::binary_search(recorded.begin(), recorded.end(), name)) continue;
     try {
-      survey.under_way.push_back(under_way(directory / "checkpoints" / (name + ".json")));
-      ++survey.points[place->point].under_way;
+      std::optional<UnderWay> replicate;
+      for (std::size_t k = 0; k < plans.size(); ++k) {
+        const auto place = plans[k].place_of(name);
+        if (!place || !plans[k].requests(*place)) continue;
+        if (!replicate) replicate = under_way(directory / "checkpoints" / (name + ".json"));
+        surveys.of_plans[k].under_way.push_back(*replicate);
+        ++surveys.of_plans[k].points[place->point].under_way;
+      }
     } catch (const InputError& damage) {
-      survey.damaged.push_back(
+      surveys.damaged.push_back(
           fmt::format("{}; the next run starts this replicate from the beginning", problem_line(damage.details())));
     } catch (const FileError& error) {
       // The checkpoint was removed after the folder was listed, because its replicate now has a record.
@@ -114,12 +127,17 @@ void survey_checkpoints(const fs::path& directory, const Plan& plan, Survey& sur
 
 }  // namespace
 
-Survey survey_of(const fs::path& directory, const Plan& plan, bool with_paths) {
-  Survey survey;
-  survey.points.resize(plan.points());
-  survey_records(directory, plan, with_paths, survey);
-  survey_checkpoints(directory, plan, survey);
-  return survey;
+Surveys surveys_of(const fs::path& directory, const std::vector<Plan>& plans) {
+  Surveys surveys;
+  std::vector<TimesOfPoints> times;
+  for (const auto& plan : plans) {
+    surveys.of_plans.emplace_back().points.resize(plan.points());
+    times.emplace_back(plan.points());
+  }
+  survey_records(directory, plans, surveys, times);
+  for (std::size_t k = 0; k < plans.size(); ++k) calibrate(times[k], surveys.of_plans[k]);
+  survey_checkpoints(directory, plans, surveys);
+  return surveys;
 }
 
 }  // namespace isojam

@@ -24,7 +24,7 @@ struct UnderWay {
   std::optional<bool> working;
 };
 
-/// Numbers of replicates in a results directory, and problems with its files.
+/// Numbers of replicates of a plan in a results directory.
 struct Survey {
   struct Point {
     int recorded = 0, failed = 0, flagged = 0, under_way = 0;
@@ -35,23 +35,27 @@ struct Survey {
     /// that did not fail. If this point has no such record, the sums are over those of all points. 1 if there are none.
     double calibration = 1;
   };
-  std::vector<Point> points;        ///< one element for each sweep point of the plan
-  std::map<Flag, int> flags;        ///< number of replicates with each flag
-  std::vector<std::string> others;  ///< names of records that belong to another manifest
-  int lacking = 0;                  ///< number of records that do not have all measures of the manifest
-  int unplanned = 0;                ///< number of records that are not in the plan
+  std::vector<Point> points;  ///< one element for each sweep point of the plan
+  std::map<Flag, int> flags;  ///< number of replicates with each flag
+  int lacking = 0;            ///< number of records that do not have all measures of the manifest
   /// replicates that have a checkpoint but no record
   std::vector<UnderWay> under_way;
-  /// one line for each file that is damaged, missing, or belongs to another manifest
-  std::vector<std::string> damaged;
   /// number of records from which the calibrations were computed
   int calibration_records = 0;
 };
 
-/// Makes a survey of a directory. It only reads files. A missing directory counts as empty. A record whose packing file
-/// is damaged or missing counts as damaged. If `with_paths` is true, this also holds for the path file. Damaged records
-/// are not counted as recorded, because "isojam run" recomputes them. Throws FileError if a file cannot be read at the
-/// moment.
-Survey survey_of(const std::filesystem::path& directory, const Plan& plan, bool with_paths);
+/// Surveys of a directory, one for each plan, and what they share.
+struct Surveys {
+  std::vector<Survey> of_plans;
+  std::vector<std::string> unasked;  ///< names of the records that no plan requests
+  /// one line for each file that is damaged or missing
+  std::vector<std::string> damaged;
+};
+
+/// Makes surveys of a directory. It only reads files. A missing directory counts as empty. A record whose packing file
+/// is damaged or missing counts as damaged. If the first plan keeps paths, this also holds for the path file. Damaged
+/// records are not counted as recorded, because "isojam run" recomputes them. Throws FileError if a file cannot be read
+/// at the moment.
+Surveys surveys_of(const std::filesystem::path& directory, const std::vector<Plan>& plans);
 
 }  // namespace isojam

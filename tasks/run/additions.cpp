@@ -96,29 +96,31 @@ Measurement with_nearest(Measurement recorded, const Measurement& measured, cons
 
 }  // namespace
 
-Additions additions(const fs::path& directory, const Plan& plan, const std::vector<std::string>& names) {
+Additions additions(const fs::path& directory, const Requests& requests, const std::vector<Measure>& measures,
+                    const std::vector<std::string>& names) {
   Additions result;
   for (const auto& name : names) {
     const auto held = read_record(directory, name);
-    if (is_superseded(held, plan)) {
-      result.impossible.push_back({name, "it failed, and its settings have changed since"});
+    if (lacks(held, measures).empty()) continue;
+    auto spec = requested(requests, name);
+    if (const auto standing = standing_of(held, spec); standing != Standing::requested) {
+      const bool is_superseded = standing == Standing::superseded;
+      result.impossible.push_back(
+          {name, is_superseded ? "it failed, and its settings have changed since" : std::string(other_manifest)});
       continue;
     }
-    const auto place = plan.place_of(name);
-    if (!place || !is_of(held, plan))
-      throw InputError({file_of(directory, "records", name), "/provenance/manifest_digest", std::string(other_manifest),
-                        plan.manifest_digest(), ""});
-    if (lacks(held, plan.manifest()).empty()) continue;
-    auto spec = plan.at(place->point, place->replicate);
+    spec->measures = measures;
+    spec->measures.insert(spec->measures.end(), held.summary.measures.begin(), held.summary.measures.end());
+    sort_measures(spec->measures);
     if (!held.summary.failed) {
       if (const auto why = without_states(directory, held)) {
         result.impossible.push_back({name, *why});
       } else {
         if (!has_path(directory, held)) result.nearest_only.push_back(name);
-        result.measured.push_back(std::move(spec));
+        result.measured.push_back(*std::move(spec));
       }
     } else if (failed_before_measures(held)) {
-      result.failed.push_back(std::move(spec));
+      result.failed.push_back(*std::move(spec));
     } else {
       result.impossible.push_back({name, "it failed in a measure, so its states were not saved"});
     }

@@ -11,7 +11,7 @@
 
 namespace isojam {
 
-/// The replicates in a directory whose records do not have all measures of a manifest.
+/// The replicates in a directory whose records do not have all of some measures.
 struct Additions {
   std::vector<ReplicateSpec> measured;  ///< replicates whose states are stored, so that measures can be added
   /// names of those among `measured` whose path was not kept: only their nearest states can be measured
@@ -25,10 +25,10 @@ struct Additions {
   std::vector<Impossible> impossible;
 };
 
-/// Finds, among the records with these names, those that do not have all measures of the plan. It only reads files.
-/// Throws InputError if a record is damaged, belongs to another manifest, or is not in the plan. Throws FileError if a
-/// file cannot be read at the moment.
-Additions additions(const std::filesystem::path& directory, const Plan& plan, const std::vector<std::string>& names);
+/// Finds, among the records with these names, those that do not have all of the measures. It only reads files. Throws
+/// InputError if a record is damaged. Throws FileError if a file cannot be read at the moment.
+Additions additions(const std::filesystem::path& directory, const Requests& requests,
+                    const std::vector<Measure>& measures, const std::vector<std::string>& names);
 
 /// Adds measures to the records of a store. It reads a record when the work on its replicate begins. Before it replaces
 /// the record, it reads the record again, because another process may have changed it.

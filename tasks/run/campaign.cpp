@@ -1,12 +1,16 @@
 #include "tasks/run/campaign.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "tasks/io/file.hpp"
 #include "tasks/measure/quantity.hpp"
 
 namespace isojam {
+
+static constexpr std::chrono::milliseconds pause{50};  ///< between two looks at what other processes compute
 
 Campaign::Campaign(const Plan& plan, const Replicates& rule, const Shard& shard, const Store& store)
     : plan_(plan), rule_(rule), shard_(shard), store_(store), points_(plan.points()) {}
@@ -49,18 +53,46 @@ bool Campaign::open_round() {
   return any;
 }
 
-std::optional<ReplicateSpec> Campaign::next() {
+std::optional<ReplicateSpec> Campaign::next_in_order() {
   while (at_point_ < points_.size()) {
     if (at_replicate_ >= points_[at_point_].wanted) {
       if (++at_point_ < points_.size()) at_replicate_ = points_[at_point_].done;
       continue;
     }
     const int replicate = at_replicate_++;
-    if (!takes(at_point_, replicate)) continue;
-    auto spec = plan_.at(at_point_, replicate);
-    const auto summary = store_.recorded(spec);
-    if (!summary) return spec;
+    if (takes(at_point_, replicate)) return plan_.at(at_point_, replicate);
+  }
+  return std::nullopt;
+}
+
+/// True if the replicate, whose lock this process has, must be computed. Otherwise releases the lock.
+bool Campaign::is_missing(ReplicateSpec& spec) {
+  if (const auto summary = store_.recorded(spec)) {
     failed_ += summary->failed;
+    store_.release(spec);
+    return false;
+  }
+  store_.keep_measures(spec);
+  return true;
+}
+
+std::optional<ReplicateSpec> Campaign::next(const std::stop_token& stop) {
+  while (auto spec = next_in_order()) {
+    if (!store_.take(*spec)) {
+      elsewhere_.push_back(*std::move(spec));
+    } else if (is_missing(*spec)) {
+      return spec;
+    }
+  }
+  while (!elsewhere_.empty() && !stop.stop_requested()) {
+    for (auto spec = elsewhere_.begin(); spec != elsewhere_.end(); ++spec) {
+      if (!store_.take(*spec)) continue;
+      auto free = std::move(*spec);
+      elsewhere_.erase(spec);
+      if (is_missing(free)) return free;
+      break;
+    }
+    if (!elsewhere_.empty()) std::this_thread::sleep_for(pause);
   }
   return std::nullopt;
 }
@@ -74,7 +106,7 @@ Campaign::Size Campaign::round_size() const {
   }
   for (const auto& name : names_in(store_.directory() / "records")) {
     const auto place = plan_.place_of(name);
-    if (!place || !takes(place->point, place->replicate)) continue;
+    if (!place || !plan_.requests(*place) || !takes(place->point, place->replicate)) continue;
     const auto& state = points_[place->point];
     if (place->replicate < state.done || place->replicate >= state.wanted) continue;
     ++size.recorded;

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,10 @@ class Campaign {
   /// Begins the next round. Before the call, all replicates that next() returned must be in the records. Returns false
   /// if there are no more rounds. With a goal, throws FileError if one of these records was removed or damaged.
   bool open_round();
-  /// The next replicate of the round that has no valid record; nullopt if the round has no more such replicates.
-  std::optional<ReplicateSpec> next();
+  /// The next replicate of the round that has no valid record. It is locked, see Store::take(). Replicates that another
+  /// process computes come last: the function waits until they are recorded, or until that process has ended. nullopt if
+  /// the round has no more such replicates, or after a stop request.
+  std::optional<ReplicateSpec> next(const std::stop_token& stop = {});
 
   struct Size {
     std::size_t replicates = 0;  ///< number of replicates of this shard in the round
@@ -53,6 +56,8 @@ class Campaign {
   };
 
   bool takes(std::size_t point, int replicate) const;
+  std::optional<ReplicateSpec> next_in_order();
+  bool is_missing(ReplicateSpec& spec);
   void learn(std::size_t point);
 
   const Plan& plan_;
@@ -62,6 +67,7 @@ class Campaign {
   std::vector<Point> points_;
   std::size_t at_point_ = 0;
   int at_replicate_ = 0;
+  std::vector<ReplicateSpec> elsewhere_;  ///< replicates of the round that other processes compute
   int failed_ = 0;
 };
 

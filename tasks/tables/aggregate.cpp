@@ -17,8 +17,8 @@ namespace isojam {
 namespace {
 
 std::string describe(const RecordSummary& record) {
-  return fmt::format("{} replicate {} of manifest {}", point_text(record.solid, record.particles, record.parameters),
-                     record.replicate, record.manifest_digest);
+  return fmt::format("{} replicate {} of seed {}", point_text(record.solid, record.particles, record.parameters),
+                     record.replicate, record.seed);
 }
 
 /// Two neighbouring states, and the weight of the second one in a linear interpolation in ln Δφ.

@@ -108,7 +108,7 @@ Table table_of(const std::string& directory, const Manifest& manifest, const War
                const std::function<void(const RecordedReplicate&)>& seen) {
   Aggregation aggregation(manifest.exclude, manifest.base);
   for_each_record(
-      directory, manifest, warn,
+      directory, warn,
       [&](const RecordedReplicate& held) {
         aggregation.add(held.summary);
         seen(held);

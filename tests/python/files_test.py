@@ -120,7 +120,7 @@ class Documents(Case):
         whole = json.loads(packing.read_text())
         for key, value in (("positions", True), ("positions", []), ("orientations", whole["orientations"][1:]), ("side", "x"),
                            ("density", None), ("kind", [7] * 52), ("kind", [-1] * 52), ("kinds", [{}]), ("size", [0] * 9),
-                           ("schema", "isojam.packing.v1"), ("result_digest", "0" * 16), ("manifest_digest", "0" * 16)):
+                           ("schema", "isojam.packing.v1"), ("result_digest", "0" * 16), ("spec_digest", "0" * 16)):
             packing.write_text(json.dumps({**whole, key: value}))
             with self.subTest(f"{key} = {value!r:.40}"):
                 self.assertEqual(self.refused(lambda: read_all(isojam.load(where, check=False))).file, str(packing))

@@ -77,7 +77,7 @@ class Rows(support.Case):
         record = support.document(CUBES, "records", row["replicate"])
         for name, value in (("phi_j.single_state", record["phi_j"]["single_state"]), ("work.hessians", record["work"]["hessians"]),
                             ("evaluations", record["evaluations"]), ("wall_seconds", record["timing"]["wall_seconds"]),
-                            ("manifest_digest", record["provenance"]["manifest_digest"])):
+                            ("spec_digest", record["provenance"]["spec_digest"])):
             self.assertEqual(row[name], value, name)
 
     def test_what_failed(self):
@@ -188,7 +188,8 @@ class Directories(support.Case):
 
     def test_a_directory_without_a_manifest(self):
         where = self.copy(MIXED)
-        (where / "manifest.json").unlink()
+        for manifest in (where / "manifest.json", *where.glob("manifests/*")):
+            manifest.unlink()
         study = isojam.load(where)
         self.assertIsNone(study.manifest)
         self.assertFalse(study.replicates["excluded"].any())

@@ -48,12 +48,12 @@ std::vector<std::string> chosen_names(const ExportArguments& arguments) {
   return {recorded_name(arguments.directory, arguments.replicate)};
 }
 
-RecordedReplicate own_record(const ExportArguments& arguments, const std::optional<Plan>& plan,
-                             const std::string& name) {
+RecordedReplicate own_record(const ExportArguments& arguments, const Requests& requests, const std::string& name) {
   auto held = read_record(arguments.directory, name);
-  if (plan && !is_of(held, *plan) && !is_superseded(held, *plan))
-    throw InputError({record_file(arguments, name), "/provenance/manifest_digest", std::string(other_manifest),
-                      plan->manifest_digest(), ""});
+  const auto spec = requested(requests, name);
+  if (!requests.empty() && standing_of(held, spec) == Standing::foreign)
+    throw InputError({record_file(arguments, name), "/provenance/spec_digest", std::string(other_manifest),
+                      spec ? spec_digest(*spec) : "", ""});
   return held;
 }
 

@@ -8,7 +8,7 @@
 #include "tasks/io/console.hpp"
 #include "tasks/io/exit_codes.hpp"
 #include "tasks/io/place.hpp"
-#include "tasks/records/recorded.hpp"
+#include "tasks/records/requests.hpp"
 
 namespace isojam {
 
@@ -45,10 +45,8 @@ struct ExportArguments {
 /// this check, text such as "../x" cannot become part of a path.
 std::vector<std::string> chosen_names(const ExportArguments& arguments);
 
-/// Reads a record with read_record(). If there is a plan and the record does not belong to it, throws InputError. A
-/// failed record is accepted even if the plan now has other settings for its replicate, see is_superseded().
-RecordedReplicate own_record(const ExportArguments& arguments, const std::optional<Plan>& plan,
-                             const std::string& name);
+/// Reads a record with read_record(). If there are requests and the record is foreign to them, throws InputError.
+RecordedReplicate own_record(const ExportArguments& arguments, const Requests& requests, const std::string& name);
 
 /// True if the replicate did not fail. For a failed replicate, prints a warning and returns false if all replicates are
 /// exported. If the user gave the name of a failed replicate, throws UsageError.

@@ -44,9 +44,9 @@ void warn_of_undecided(const std::string& name, const std::vector<ExportFrame>& 
 }
 
 /// If the output is a stream, it receives only the file that the user named, without accompanying files.
-void export_replicate(const ExportArguments& arguments, const std::optional<Plan>& plan, const std::string& name,
+void export_replicate(const ExportArguments& arguments, const Requests& requests, const std::string& name,
                       const fs::path& output, Console& console) {
-  const auto held = own_record(arguments, plan, name);
+  const auto held = own_record(arguments, requests, name);
   if (!has_packing(arguments, held, console)) return;
   std::vector<ExportFrame> frames;
   for (auto& state : stored_states(arguments.directory, held, arguments.path))
@@ -67,10 +67,9 @@ void export_replicate(const ExportArguments& arguments, const std::optional<Plan
 
 ExitCode export_packings(const ExportArguments& arguments, Console& console) {
   const auto names = chosen_names(arguments);
-  const auto manifest = stored_manifest(arguments.directory);
-  const auto plan = manifest ? std::optional<Plan>(*manifest) : std::nullopt;
+  const auto requests = requests_in(arguments.directory, [&](const std::string& message) { console.warn(message); });
   if (!arguments.all()) {
-    export_replicate(arguments, plan, names.front(), arguments.output, console);
+    export_replicate(arguments, requests, names.front(), arguments.output, console);
     return ExitCode::done;
   }
   std::error_code error;
@@ -80,7 +79,7 @@ ExitCode export_packings(const ExportArguments& arguments, Console& console) {
   if (error) throw FileError::of_error(arguments.output, "cannot be created", error);
   for (const auto& name : names) {
     const auto file = name + std::string(extension_of(format_of(arguments.what), arguments.path));
-    export_replicate(arguments, plan, name, fs::path(arguments.output) / file, console);
+    export_replicate(arguments, requests, name, fs::path(arguments.output) / file, console);
   }
   return ExitCode::done;
 }

@@ -41,11 +41,10 @@ void append_contacts(const ExportArguments& arguments, const RecordedReplicate& 
 }
 
 /// The solids of these replicates: {name: {"vertices": [[x, y, z], …], "faces": [[index, …], …]}, …}.
-Json solids_of(const ExportArguments& arguments, const std::vector<std::string>& names,
-               const std::optional<Plan>& plan) {
+Json solids_of(const ExportArguments& arguments, const std::vector<std::string>& names, const Requests& requests) {
   Json solids = Json::object();
   for (const auto& name : names) {
-    const auto held = own_record(arguments, plan, name);
+    const auto held = own_record(arguments, requests, name);
     for (const auto& kind : held.summary.solid.kinds()) {
       Json& solid = solids[kind.solid->name()];
       if (!solid.is_null()) continue;
@@ -56,27 +55,40 @@ Json solids_of(const ExportArguments& arguments, const std::vector<std::string>&
   return solids;
 }
 
+/// A manifest with the parameters, solids and measures of all manifests of a directory.
+std::optional<Manifest> combined(const Requests& requests) {
+  if (requests.empty()) return std::nullopt;
+  auto all = requests.front().manifest();
+  for (const auto& plan : requests) {
+    const auto& more = plan.manifest();
+    all.swept.insert(more.swept.begin(), more.swept.end());
+    all.solids.insert(all.solids.end(), more.solids.begin(), more.solids.end());
+    all.measures.insert(all.measures.end(), more.measures.begin(), more.measures.end());
+  }
+  sort_measures(all.measures);
+  return all;
+}
+
 }  // namespace
 
 ExitCode export_rows(const ExportArguments& arguments, Console& console) {
   // If a name is unknown, this throws before the first line is written.
   const auto names = chosen_names(arguments);
-  const auto manifest = stored_manifest(arguments.directory);
-  const auto plan = manifest ? std::optional<Plan>(*manifest) : std::nullopt;
+  const auto requests = requests_in(arguments.directory, [&](const std::string& message) { console.warn(message); });
   if (arguments.what == Exported::solids) {
     Output output(arguments.output);
-    output.append(pretty(solids_of(arguments, names, plan)));
+    output.append(pretty(solids_of(arguments, names, requests)));
     output.finish();
     return ExitCode::done;
   }
   const auto format = format_of(arguments.output);
   const auto of = arguments.what == Exported::states ? RowOf::state : RowOf::replicate;
-  const RecordRows rows(of, format, manifest, own_record(arguments, plan, names.front()));
+  const RecordRows rows(of, format, combined(requests), own_record(arguments, requests, names.front()));
   const bool of_contacts = arguments.what == Exported::contacts;
   Output output(arguments.output);
   output.append(of_contacts ? head_line(format, contact_columns()) : rows.head());
   for (const auto& name : names) {
-    const auto held = own_record(arguments, plan, name);
+    const auto held = own_record(arguments, requests, name);
     if (!of_contacts) {
       output.append(rows.lines(held));
     } else if (has_packing(arguments, held, console)) {

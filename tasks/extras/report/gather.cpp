@@ -286,7 +286,7 @@ Json provenance_list(const Results& results) {
   Json builds = Json::array();
   for (const auto& replicate : results.replicates) {
     Json build;
-    for (const std::string key : {"version", "git", "compiler", "manifest_digest", "seed"})
+    for (const std::string key : {"version", "git", "compiler", "seed"})
       build[key] = text_at(replicate.record, "/provenance/" + key);
     add_distinct(builds, build);
   }
@@ -339,14 +339,14 @@ Json solid_list(const Results& results) {
 }  // namespace
 
 Json report_data(const Results& results, const std::map<std::size_t, Json>& views) {
-  std::vector<RecordSummary> summaries;
+  const auto exclude = exclude_of(results.manifest);
+  Aggregation aggregation(exclude, base_of(results.manifest));
   std::map<std::string, Members> points;
   for (const auto& replicate : results.replicates) {
-    summaries.push_back(replicate.summary);
+    aggregation.add(replicate.summary);
     points[point_of(replicate.summary)].push_back(&replicate);
   }
-  const auto exclude = exclude_of(results.manifest);
-  const auto table = aggregate(summaries, rule_of(results.manifest), exclude, base_of(results.manifest));
+  const auto table = aggregation.table(rule_of(results.manifest));
 
   Json data;
   data["manifest"] = {{"name", text_at(results.manifest, "/name")}, {"seed", text_at(results.manifest, "/seed")}};

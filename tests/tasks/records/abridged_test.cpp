@@ -24,7 +24,7 @@ std::string table_of(const RecordSummary& summary) {
 void expect_same(const RecordedReplicate& quick, const RecordedReplicate& whole) {
   EXPECT_EQ(table_of(quick.summary), table_of(whole.summary));
   EXPECT_EQ(quick.summary.result_digest, whole.summary.result_digest);
-  EXPECT_EQ(quick.summary.manifest_digest, whole.summary.manifest_digest);
+  EXPECT_EQ(quick.summary.spec_digest, whole.summary.spec_digest);
   EXPECT_EQ(quick.summary.measures, whole.summary.measures);
   EXPECT_EQ(quick.summary.flags, whole.summary.flags);
   EXPECT_EQ(quick.summary.settings, whole.summary.settings);

@@ -98,7 +98,7 @@ TEST(Checkpoint, ForeignCheckpointsAreRejected) {
   EXPECT_NO_THROW(read_checkpoint({good, "c"}, spec));
   const std::vector<std::pair<std::string, Json>> wrong{{"/schema", "isojam.checkpoint.v0"},
                                                         {"/provenance/git", "another"},
-                                                        {"/provenance/manifest_digest", "0123456789abcdef"},
+                                                        {"/provenance/spec_digest", "0123456789abcdef"},
                                                         {"/spec/replicate", 1},
                                                         {"/packing/solid", "icosahedron"},
                                                         {"/packing/positions", Json::array()},

@@ -50,10 +50,10 @@ class Own : public testing::Test {
     EXPECT_FALSE(store_.recorded(plan_[0]));
     ASSERT_EQ(warnings_.said.size(), 1U);
     EXPECT_NE(warnings_.said[0].find(file.string()), std::string::npos) << warnings_.said[0];
-    const auto survey = survey_of(here_.path(), Plan(manifest_), true);
-    EXPECT_EQ(survey.damaged.size(), 1U);
+    const auto surveys = surveys_of(here_.path(), {Plan(manifest_)});
+    EXPECT_EQ(surveys.damaged.size(), 1U);
     int recorded = 0;
-    for (const auto& point : survey.points) recorded += point.recorded;
+    for (const auto& point : surveys.of_plans.at(0).points) recorded += point.recorded;
     EXPECT_EQ(recorded, static_cast<int>(plan_.size()) - 1);
   }
 
@@ -70,7 +70,7 @@ TEST_F(Own, PackingsAndPathsBelongToTheirRecord) {
     fs::copy_file(path(folder, 1), path(folder, 0), fs::copy_options::overwrite_existing);
     expect_not_held(path(folder, 0));
     test::write_text(path(folder, 0), own);
-    for (const std::string key : {"schema", "replicate", "manifest_digest", "result_digest"}) {
+    for (const std::string key : {"schema", "replicate", "spec_digest", "result_digest"}) {
       change(path(folder, 0), [&](Json& json) { json[key] = "another"; });
       expect_not_held(path(folder, 0));
       test::write_text(path(folder, 0), own);
@@ -200,22 +200,23 @@ TEST(Rivals, OneOfThemGetsAFreshDirectory) {
   for (int round = 0; round < rounds; ++round) {
     const test::TemporaryDirectory directory;
     std::vector<std::string> refusals(2);
+    std::vector<std::optional<Store>> stores(2);
     {
       std::vector<std::jthread> rivals;
-      for (int k = 0; k < 2; ++k) {
+      for (std::size_t k = 0; k < 2; ++k) {
         rivals.emplace_back([&, k] {
           try {
-            const Store store(directory / "r", manifest_with(7 + k), unheard);
-          } catch (const InputError& error) {
-            refusals[static_cast<std::size_t>(k)] = error.what();
+            stores[k].emplace(directory / "r", manifest_with(7 + static_cast<int>(k)), unheard);
+          } catch (const FileError& error) {
+            refusals[k] = error.what();
           }
         });
       }
     }
     const bool first_lost = !refusals[0].empty();
     ASSERT_NE(first_lost, !refusals[1].empty()) << refusals[0] << " | " << refusals[1];
-    ASSERT_NE(refusals[first_lost ? 0 : 1].find("/seed"), std::string::npos) << refusals[first_lost ? 0 : 1];
-    EXPECT_EQ(digest(own_manifest(directory / "r")), digest(manifest_with(first_lost ? 8 : 7)));
+    ASSERT_NE(refusals[first_lost ? 0 : 1].find("another process of isojam"), std::string::npos);
+    EXPECT_EQ(own_manifest(directory / "r").seed, first_lost ? 8U : 7U);
   }
 }
 

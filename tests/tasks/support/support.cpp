@@ -112,7 +112,9 @@ std::map<std::string, std::string> files_below(const fs::path& directory) {
 
 std::map<std::string, std::string> results_below(const fs::path& directory) {
   auto files = files_below(directory);
-  std::erase_if(files, [](const auto& file) { return fs::path(file.first).filename().string().starts_with('.'); });
+  std::erase_if(files, [](const auto& file) {
+    return fs::path(file.first).filename().string().starts_with('.') || file.first.starts_with("manifests/");
+  });
   for (auto& [name, content] : files) {
     if (name.rfind("records/", 0) == 0) content = pretty(without_checksum(parse_json(content, name)));
   }

@@ -64,7 +64,7 @@ std::string sealed_again(std::string text);
 std::map<std::string, std::string> files_below(const std::filesystem::path& directory);
 
 /// The same for a results directory, without everything that may differ between two runs: the checksums and times in
-/// records, and temporary files of processes that were killed.
+/// records, the dates of manifests, and temporary files of processes that were killed.
 std::map<std::string, std::string> results_below(const std::filesystem::path& directory);
 
 /// A manifest of real packings that take about one second each: 24 or 28 dodecahedra, minimised to large residuals.

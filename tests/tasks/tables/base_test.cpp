@@ -22,7 +22,7 @@ RecordSummary record_of(const Json& parameters, int replicate, double phi_j) {
   record.particles = 100;
   record.parameters = parameters;
   record.replicate = replicate;
-  record.manifest_digest = "one";
+  record.spec_digest = "one";
   record.values[index_of("phi_j")] = phi_j;
   record.result_digest = parameters.dump() + std::to_string(replicate);
   return record;

@@ -31,7 +31,6 @@ function drawProvenance(data) {
     put('Can be added', `${data.addable.join(', ')}; run "isojam measure DIR --add ${data.addable[0]}"${only}`);
   }
   for (const build of data.builds) {
-    put('Manifest digest', build.manifest_digest);
     put('Program', `isojam ${build.version} (git ${build.git})`);
     put('Compiler', build.compiler);
   }
