@@ -13,7 +13,7 @@ namespace {
 // strain, rearrangements, and the residual strain after unloading.
 
 struct Step {
-  double load = 0, strain = 0, stress = 0, phi = 0, pressure = 0, energy_per_particle = 0, Z = 0;
+  double load = 0, strain = 0, stress = 0, density = 0, pressure = 0, energy_per_particle = 0, Z = 0;
   Reasoned<> C;
   double dissipated_per_particle = 0;
   bool dropped = false;
@@ -28,7 +28,7 @@ void describe(Fields& field, Step& step) {
       .finite();
   field("strain", step.strain, "Shear strain γ.").finite();
   field("stress", step.stress, "Shear stress s (Y), with dE = V s dγ.").unit("Y").finite();
-  field("density", step.phi, "Density φ.").finite();
+  field("density", step.density, "Density φ.").finite();
   field("pressure", step.pressure, "Pressure p (Y).").unit("Y").finite();
   field("energy_per_particle", step.energy_per_particle, "Energy per particle E/N (Y·V_p).").unit("Y·V_p").finite();
   field("Z", step.Z, "Contact number: number of contacts per particle; each contact counts for both of its particles.")

@@ -102,7 +102,7 @@ class Gsd(check.RoundTrip):
         seen = set()
         for _, snapshot, state, values in self.frames():
             log = snapshot.log
-            self.assertEqual(log["isojam/phi"][0], state.density)
+            self.assertEqual(log["isojam/density"][0], state.density)
             self.assertEqual(log["isojam/side"][0], state.side)
             self.assertEqual(log["isojam/delta_phi"][0], state.delta_phi)
             self.assert_near(log["particles/isojam/Z"].mean(), values["contacts"]["Z"], 8 * results.DOUBLE * values["contacts"]["Z"], "Z")

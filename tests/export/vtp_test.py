@@ -124,7 +124,7 @@ class Vtp(check.RoundTrip):
 
     def test_data(self):
         for _, picture, state, _ in self.files():
-            for key, value in (("side", state.side), ("phi", state.density), ("delta_phi", state.delta_phi)):
+            for key, value in (("side", state.side), ("density", state.density), ("delta_phi", state.delta_phi)):
                 self.assertEqual(list(picture.field[key]), [value])
             per_particle = len(picture.faces[0])
             self.assert_near(picture.cell["particle"], numpy.repeat(range(state.n), per_particle), 0, "particle")

@@ -46,7 +46,7 @@ class Xyz(check.RoundTrip):
             lattice = numpy.array(values["Lattice"].split(), dtype=float).reshape(3, 3)
             numpy.testing.assert_array_equal(lattice, state.side * numpy.eye(3))
             self.assertEqual((values["pbc"], set(particles["species"])), ("T T T", {state.solid}))
-            self.assertEqual((float(values["phi"]), float(values["delta_phi"])), (state.density, state.delta_phi))
+            self.assertEqual((float(values["density"]), float(values["delta_phi"])), (state.density, state.delta_phi))
 
     def test_particles(self):
         for _, particles, state, record in self.frames():

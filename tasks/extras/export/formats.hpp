@@ -16,7 +16,7 @@ namespace isojam {
 /// solid; its shape is in particles/type_shapes. Diameters keep their default value, because viewers scale shapes by
 /// the diameter.
 ///
-/// Logged quantities (under log/): isojam/phi and isojam/side in double precision; isojam/cell unless the cell is a
+/// Logged quantities (under log/): isojam/density and isojam/side in double precision; isojam/cell unless the cell is a
 /// cube; isojam/delta_phi if every frame has it; particles/isojam/Z and particles/isojam/cluster. If a frame has a
 /// contact network, it is written with bond_chunks().
 std::string gsd_file(std::span<const ExportFrame> frames);

@@ -159,7 +159,7 @@ std::vector<GsdChunk> chunks_of(const ExportFrame& frame, std::uint64_t step, bo
   chunks.push_back(many("configuration/box", box_of(packing.cell)));
   if (step == 0) append_constants(packing, chunks);
   append_poses(packing, chunks);
-  chunks.push_back(one("log/isojam/phi", packing.density()));
+  chunks.push_back(one("log/isojam/density", packing.density()));
   chunks.push_back(one("log/isojam/side", packing.cell.side()));
   if (!packing.cell.is_cube()) chunks.push_back(many("log/isojam/cell", vectors_of(frame.packing.cell), 3));
   if (with_distance) chunks.push_back(one("log/isojam/delta_phi", *frame.delta_phi));

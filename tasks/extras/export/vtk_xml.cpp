@@ -23,7 +23,7 @@ std::string vtk_head(const ExportFrame& frame, std::string_view explanation) {
     append_array(xml, "Float64", "Name=\"cell\" NumberOfComponents=\"9\" NumberOfTuples=\"1\"", 9, 9,
                  [&](std::size_t k) { return h.data()[k]; });
   }
-  append_field(xml, "phi", packing.density());
+  append_field(xml, "density", packing.density());
   if (frame.delta_phi) append_field(xml, "delta_phi", *frame.delta_phi);
   return xml + "</FieldData>\n";
 }

@@ -27,7 +27,7 @@ void append_array(std::string& xml, std::string_view type, std::string_view attr
 }
 
 /// The beginning of a PolyData file, up to the element Piece. Field data: side, cell (three lattice vectors) unless it
-/// is a cube, phi, and delta_phi if the frame has it. `explanation` is an XML comment, or empty.
+/// is a cube, density, and delta_phi if the frame has it. `explanation` is an XML comment, or empty.
 std::string vtk_head(const ExportFrame& frame, std::string_view explanation);
 
 /// The end of a PolyData file, from the end of the element Piece.

@@ -18,7 +18,7 @@ void append_frame(std::string& text, const ExportFrame& frame) {
   const std::vector<double> vectors(h.data(), h.data() + 9);  // the three lattice vectors, one after another
   fmt::format_to(Text(text),
                  "{0}\nLattice=\"{1}\" pbc=\"T T T\" "
-                 "Properties=species:S:1:{3}pos:R:3:orientation:R:4:Z:I:1:cluster:I:1 phi={2}",
+                 "Properties=species:S:1:{3}pos:R:3:orientation:R:4:Z:I:1:cluster:I:1 density={2}",
                  packing.size(), fmt::join(vectors, " "), packing.density(), sized ? "size:R:1:" : "");
   if (frame.delta_phi) fmt::format_to(Text(text), " delta_phi={}", *frame.delta_phi);
   text += '\n';

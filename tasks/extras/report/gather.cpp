@@ -85,7 +85,7 @@ Json state_points(const Json& record) {
   for (const auto& state : list_at(record, "/states")) {
     const auto energy = number_at(state, "/energy_per_particle");
     Json point;
-    point["phi"] = number_at(state, "/density");
+    point["density"] = number_at(state, "/density");
     point["delta_phi"] = number_at(state, "/delta_phi");
     point["root"] = energy.is_null() ? energy : Json(sixth_root(energy.get<double>()));
     for (const auto* name : drawn_quantities) point[name] = number_at(state, std::string(quantity(name).pointer));
@@ -101,9 +101,9 @@ Json extrapolation(const Json& record) {
   for (const double index : numbers_at(record, "/phi_j/states")) {
     if (index < 0 || index >= static_cast<double>(states.size())) return nullptr;
     const auto& state = states[static_cast<std::size_t>(index)];
-    if (state.at("root").is_null() || state.at("phi").is_null()) return nullptr;
+    if (state.at("root").is_null() || state.at("density").is_null()) return nullptr;
     roots.push_back(state.at("root").get<double>());
-    densities.push_back(state.at("phi").get<double>());
+    densities.push_back(state.at("density").get<double>());
   }
   const auto phi_j = number_at(record, "/phi_j/phi_j");
   if (phi_j.is_null() || roots.empty()) return nullptr;

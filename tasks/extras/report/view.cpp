@@ -197,7 +197,7 @@ Json packing_view(const Packing& packing, int modes) {
   Json json;
   json["solid"] = packing.solids.unit(0).name();  // if this is a mixture, its name is stored elsewhere
   if (!packing.solids.is_uniform()) put_solids(json, packing.solids, packing.size());
-  json["phi"] = packing.density();
+  json["density"] = packing.density();
   json["side"] = packing.cell.side();
   json["cell"] = vectors_of(packing.cell);
   put_poses(json, packing);

@@ -88,7 +88,7 @@ function viewControls(data, views) {
 }
 
 function statusText(data, view) {
-  const parts = [`$φ$ = ${formatted(view.phi, 5)}`, `${view.positions.length} particles`,
+  const parts = [`$φ$ = ${formatted(view.density, 5)}`, `${view.positions.length} particles`,
     `${view.forces.length / 6} contacts, the largest force ${formatted(view.largest_force, 3)}`];
   if (view.largest) parts.push(`largest cluster of face-face contacts: ${view.largest.members.length} particles` +
     (view.largest.winding_rank > 0 ? ', closed through the boundary' : ''));
