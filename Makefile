@@ -179,7 +179,7 @@ docs: build
 .PHONY: schemas extending
 schemas: build
 	@for name in $(SCHEMAS); do $(BUILD)/isojam schema $$name -o schemas/$$name.schema.json || exit 1; done
-SCHEMAS = manifest record tables
+SCHEMAS = manifest record packing path tables chart chart_data
 
 # The diffs of docs/developing.md, in a copy of the sources.
 extending:

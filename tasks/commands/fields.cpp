@@ -1,4 +1,4 @@
-#include "tasks/io/fields.hpp"
+#include "tasks/commands/shared.hpp"
 
 #include <fmt/format.h>
 
@@ -6,33 +6,24 @@
 
 #include "tasks/commands/command.hpp"
 #include "tasks/io/atomic_file.hpp"
+#include "tasks/io/fields.hpp"
 #include "tasks/io/standard_streams.hpp"
 #include "tasks/io/usage_error.hpp"
 #include "tasks/manifest/manifest.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/records/document.hpp"
+#include "tasks/records/state_file.hpp"
 #include "tasks/tables/fitted.hpp"
 #include "tasks/tables/tables.hpp"
 
 namespace isojam {
 namespace {
 
-/// A kind of file with its description.
-struct DocumentKind {
-  std::string_view name, title;
-  Fields (*fields)();
-};
-constexpr std::array documents{
-    DocumentKind{"manifest", "isojam manifest", fields_of<Manifest>},
-    DocumentKind{"record", "isojam record", fields_of<Record>},
-    DocumentKind{"tables", "isojam tables", fields_of<Table>},
-};
-
 constexpr std::size_t columns = 100;
 
 const DocumentKind& document(const std::string& name) {
   std::vector<std::string_view> names;
-  for (const auto& kind : documents) {
+  for (const auto& kind : documents()) {
     if (kind.name == name) return kind;
     names.push_back(kind.name);
   }
@@ -137,7 +128,7 @@ std::string fields_named(const std::string& name) {
                         quantity.pointer);
     text += indented(wrapped(quantity.meaning, columns - 6), 6);
   }
-  for (const auto& kind : documents) {
+  for (const auto& kind : documents()) {
     for (const auto& section : sections_of(kind.fields(), std::string(kind.name))) {
       for (const auto& row : section.rows) {
         if (row.key == name) text += text_of(row, section.title + "." + row.key);
@@ -150,7 +141,7 @@ std::string fields_named(const std::string& name) {
 /// The error for a name that is neither a document nor a field.
 [[noreturn]] void refuse(const std::string& name) {
   std::vector<std::string> all;
-  for (const auto& kind : documents) {
+  for (const auto& kind : documents()) {
     all.emplace_back(kind.name);
     for (const auto& section : sections_of(kind.fields(), std::string(kind.name))) {
       for (const auto& row : section.rows) all.push_back(row.key);
@@ -166,7 +157,7 @@ std::string fields_named(const std::string& name) {
 
 ExitCode print_fields(const FieldsArguments& arguments, Console&) {
   std::string text;
-  for (const auto& kind : documents) {
+  for (const auto& kind : documents()) {
     if (arguments.name == kind.name || (arguments.name.empty() && arguments.markdown))
       text += document_text(kind, arguments.markdown);
   }
@@ -179,11 +170,20 @@ ExitCode print_fields(const FieldsArguments& arguments, Console&) {
 
 std::string document_names() {
   std::string names;
-  for (const auto& kind : documents) names += (names.empty() ? "" : ", ") + std::string(kind.name);
+  for (const auto& kind : documents()) names += (names.empty() ? "" : ", ") + std::string(kind.name);
   return names;
 }
 
 }  // namespace
+
+std::vector<DocumentKind>& documents() {
+  static std::vector<DocumentKind> all{{"manifest", "isojam manifest", fields_of<Manifest>},
+                                       {"record", "isojam record", fields_of<Record>},
+                                       {"packing", "isojam packing", fields_of<PackingFile>},
+                                       {"path", "isojam path", fields_of<PathFile>},
+                                       {"tables", "isojam tables", fields_of<Table>}};
+  return all;
+}
 
 void add_schema(CLI::App& app, Session& session) {
   SchemaArguments* arguments = nullptr;

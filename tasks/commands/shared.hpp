@@ -5,10 +5,19 @@
 #include <vector>
 
 #include "tasks/io/console.hpp"
+#include "tasks/io/describe.hpp"
 #include "tasks/records/replicate.hpp"
 #include "tasks/tables/aggregate.hpp"
 
 namespace isojam {
+
+/// A kind of file with its description, for the commands `schema` and `fields`.
+struct DocumentKind {
+  std::string_view name, title;
+  Fields (*fields)();
+};
+/// All kinds. Commands that other kinds of files belong to add these.
+std::vector<DocumentKind>& documents();
 
 /// Prints the warnings that warnings_of() returns for a manifest. `file` is the name of the manifest in these warnings.
 void warn_about(const Manifest& manifest, const std::string& file, Console& console);

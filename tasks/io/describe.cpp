@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <deque>
+#include <list>
 
 namespace isojam {
 namespace {
@@ -75,10 +75,10 @@ double read_number(const JsonPlace& place, const FieldEntry& field) {
   return place.number(field.allowed.value_or(any_number));
 }
 
-std::int64_t read_integer(const JsonPlace& place, const FieldEntry& field, double most) {
+Range integer_range(const FieldEntry& field, const Integer& integer) {
   auto range = field.allowed.value_or(count_range);
-  range.high = std::min(range.high, most);
-  return place.integer(range);
+  range.high = std::min(range.high, integer.most);
+  return range;
 }
 
 void read_list(const JsonPlace& place, const FieldEntry& field, const Many& list);
@@ -88,7 +88,7 @@ void read_value(const JsonPlace& place, const FieldEntry& field, const MemberRef
   match(
       member, [&](double* value) { *value = read_number(place, field); },
       [&](bool* value) { *value = place.boolean(); }, [&](std::string* value) { *value = place.text(); },
-      [&](const Integer& value) { value.set(read_integer(place, field, value.most)); },
+      [&](const Integer& value) { value.set(place.integer(integer_range(field, value))); },
       [&](const Choice& value) { value.set(place.choice(value.names)); },
       [&](const Nested& object) {
         Fields fields;
@@ -128,9 +128,11 @@ void read_list(const JsonPlace& place, const FieldEntry& field, const Many& list
   }
 }
 
+std::string reason_key(const FieldEntry& field) { return std::string(field.key) + "_reason"; }
+
 double not_a_finite_number(const JsonPlace& object, const FieldEntry& field) {
-  return object.at(field.key + "_reason").choice(not_finite) == 0 ? std::numeric_limits<double>::infinity()
-                                                                  : std::numeric_limits<double>::quiet_NaN();
+  return object.at(reason_key(field)).choice(not_finite) == 0 ? std::numeric_limits<double>::infinity()
+                                                              : std::numeric_limits<double>::quiet_NaN();
 }
 
 void read_null(const JsonPlace& object, const FieldEntry& field, const MemberRef& member) {
@@ -141,7 +143,7 @@ void read_null(const JsonPlace& object, const FieldEntry& field, const MemberRef
   const auto* const maybe = std::get_if<Maybe>(&member);
   if (!maybe) return read_value(object.at(field.key), field, member);
   if (!maybe->reason) return read_null(object, field, maybe->value());
-  *maybe->reason = object.at(field.key + "_reason").text();
+  *maybe->reason = object.at(reason_key(field)).text();
   maybe->clear();
   if (std::find(not_finite.begin(), not_finite.end(), *maybe->reason) == not_finite.end()) return;
   const MemberRef value = maybe->value();
@@ -160,7 +162,7 @@ void read_field(const JsonPlace& object, const FieldEntry& field) {
 }
 
 /// Gives a list as many elements as the object has keys for them. Their numbers begin with 1 and have no gap.
-std::size_t sized_by_keys(const JsonPlace& object, const Many& list, const std::string& key) {
+std::size_t sized_by_keys(const JsonPlace& object, const Many& list, std::string_view key) {
   std::size_t count = 0;
   const auto has = [&](std::string name) {
     while (name.find('*') != std::string::npos) name = numbered(name, 1);
@@ -182,18 +184,59 @@ bool can_be_null(const FieldEntry& field, const MemberRef& member) {
   return std::holds_alternative<double*>(member) && !field.finite_only;
 }
 
+/// Refuses unknown keys of the object.
+void check_keys(const JsonPlace& place, const std::vector<const FieldEntry*>& fields,
+                const std::vector<std::pair<std::string, std::string>>& renamed) {
+  constexpr std::string_view ending = "_reason";
+  const auto is_known = [&](const auto& item) {
+    const std::string_view key = item.key();
+    const auto base = key.substr(0, key.ends_with(ending) ? key.size() - ending.size() : 0);
+    return std::any_of(fields.begin(), fields.end(), [&](const FieldEntry* field) {
+      return field->key == key || (field->key == base && can_be_null(*field, field->member));
+    });
+  };
+  const auto items = place.value().items();
+  if (place.value().is_object() && std::all_of(items.begin(), items.end(), is_known)) return;
+  std::vector<std::string> known;
+  for (const auto* field : fields) known.emplace_back(field->key);
+  for (const auto* field : fields)
+    if (can_be_null(*field, field->member)) known.push_back(reason_key(*field));
+  place.expect_keys(std::vector<std::string_view>(known.begin(), known.end()), [&](std::string_view key) {
+    for (const auto& [before, now] : renamed)
+      if (before == key) return now;
+    return std::string();
+  });
+}
+
+/// Reads a number in its range. Returns false for any other value, which takes longer because errors need its place.
+bool read_plainly(const Json& value, const FieldEntry& field, const MemberRef& member) {
+  if (const auto* const maybe = std::get_if<Maybe>(&member))
+    return value.is_number() && read_plainly(value, field, maybe->value());
+  if (auto* const* const number = std::get_if<double*>(&member)) {
+    const auto x = accepted_number(value, field.allowed.value_or(any_number));
+    if (x) **number = *x;
+    return x.has_value();
+  }
+  const auto* const integer = std::get_if<Integer>(&member);
+  if (!integer) return false;
+  const auto n = accepted_integer(value, integer_range(field, *integer));
+  if (n) integer->set(*n);
+  return n.has_value();
+}
+
 }  // namespace
 
-std::string numbered(std::string text, std::size_t number) {
-  const auto star = text.find('*');
-  return star == std::string::npos ? text : text.replace(star, 1, std::to_string(number));
+std::string numbered(std::string_view text, std::size_t number) {
+  std::string result(text);
+  const auto star = result.find('*');
+  return star == std::string::npos ? result : result.replace(star, 1, std::to_string(number));
 }
 
 Json written(const Fields& fields) {
   Json object = Json::object();
   for (const auto& field : fields.list)
     for_each_numbered(
-        field, [](const Many& list, const std::string&) { return list.size(); },
+        field, [](const Many& list, std::string_view) { return list.size(); },
         [&](const FieldEntry& one) { write_field(object, one, one.member); });
   return object;
 }
@@ -202,29 +245,25 @@ void read_into(const JsonPlace& place, const Fields& fields, Missing missing) {
   for (const auto& removed : fields.removed)
     place.read_if_any(removed.first,
                       [&](const JsonPlace& value) { value.refuse_with_remedy("the key was removed", removed.second); });
-  std::deque<FieldEntry> numbered_fields;
+  std::list<FieldEntry> numbered_fields;
   std::vector<const FieldEntry*> all;
-  const auto size = [&](const Many& list, const std::string& key) { return sized_by_keys(place, list, key); };
+  all.reserve(fields.list.size());
+  const auto size = [&](const Many& list, std::string_view key) { return sized_by_keys(place, list, key); };
   for (const auto& field : fields.list)
     for_each_numbered(field, size, [&](const FieldEntry& one) {
       all.push_back(&one == &field ? &field : &numbered_fields.emplace_back(one));
     });
-  std::vector<std::string> reasons;
-  std::vector<std::string_view> known;
-  for (const auto* field : all) {
-    known.emplace_back(field->key);
-    if (can_be_null(*field, field->member)) reasons.push_back(field->key + "_reason");
+  if (fields.are_all) {
+    check_keys(place, all, fields.renamed);
+  } else if (!place.value().is_object()) {
+    place.not_accepted("an object");
   }
-  known.insert(known.end(), reasons.begin(), reasons.end());
-  const auto new_name = [&](std::string_view key) {
-    for (const auto& [before, now] : fields.renamed)
-      if (before == key) return now;
-    return std::string();
-  };
-  place.expect_keys(known, new_name);
+  const Json& object = place.value();
   for (const auto* field : all) {
-    if (place.has(field->key) || (missing == Missing::refused && !can_be_absent(*field)))
-      place.attempt([&] { read_field(place, *field); });
+    const auto found = object.find(field->key);
+    if (found == object.end() && (missing == Missing::kept || can_be_absent(*field))) continue;
+    if (found != object.end() && read_plainly(*found, *field, field->member)) continue;
+    place.attempt([&] { read_field(place, *field); });
   }
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -60,12 +62,24 @@ struct QuantityGroup {
   friend constexpr bool operator==(const QuantityGroup& a, const QuantityGroup& b) { return a.name == b.name; }
 };
 
+/// A text of a description. Literals are not copied, because each object that is read or written is described anew.
+class Words : public std::string_view {
+ public:
+  Words(const char* literal = "") : std::string_view(literal) {}
+  Words(std::string text) : Words(std::make_shared<const std::string>(std::move(text))) {}
+  operator std::string() const { return {data(), size()}; }
+
+ private:
+  explicit Words(std::shared_ptr<const std::string> text) : std::string_view(*text), owned_(std::move(text)) {}
+  std::shared_ptr<const std::string> owned_ = nullptr;
+};
+
 /// What tables add to a field that is a quantity.
 struct Column {
-  std::string name = {};     ///< name in tables: the symbol of the paper, if there is one
+  Words name = {};           ///< name in tables: the symbol of the paper, if there is one
   QuantityGroup group = {};  ///< the table of main_group is the first one
-  std::string latex = {};
-  std::string meaning = {};  ///< among all quantities, if that of the field is clear only inside its object
+  Words latex = {};
+  Words meaning = {};  ///< among all quantities, if that of the field is clear only inside its object
   /// Quantities of a group are sorted by this number; those with the same number have the order of the file.
   int place = 0;
   bool proportion = false;  ///< true if each value is 0 or 1, so that the mean is a proportion
@@ -136,13 +150,13 @@ enum class Presence : std::uint8_t {
 };
 
 /// A copy of the text with a number in place of the first star.
-std::string numbered(std::string text, std::size_t number);
+std::string numbered(std::string_view text, std::size_t number);
 
 /// All that is known of a field. Its functions can be chained behind the call that adds it.
 struct FieldEntry {
-  std::string key, meaning;  ///< the meaning is a sentence in Markdown; empty if the type of the field has one
+  Words key, meaning;  ///< the meaning is a sentence in Markdown; empty if the type of the field has one
   MemberRef member;
-  std::string unit_name = {};            ///< empty if the meaning states it or the field is a pure number
+  Words unit_name = {};                  ///< empty if the meaning states it or the field is a pure number
   std::optional<Range> allowed = {};     ///< by default any number, and integers from 0 to 2^53
   Presence presence = Presence::always;  ///< an std::optional is always optional
   bool finite_only = false;              ///< true if the number is never infinite or NaN, and so never null
@@ -150,7 +164,7 @@ struct FieldEntry {
   bool writes_null = false;              ///< true if a Custom value that is null is written, without a reason
   Column quantity = {};                  ///< without name if tables do not have it
 
-  FieldEntry& unit(std::string_view name) { return unit_name = name, *this; }
+  FieldEntry& unit(const Words& name) { return unit_name = name, *this; }
   FieldEntry& range(const Range& range) { return allowed = range, *this; }
   FieldEntry& optional() { return presence = Presence::optional, *this; }
   FieldEntry& if_true() { return presence = Presence::if_true, *this; }
@@ -174,29 +188,32 @@ MemberRef ref_to(T& member);
 class Fields {
  public:
   /// Names a type that several fields have, with its meaning.
-  void type(std::string_view name, std::string_view meaning) {
+  void type(const Words& name, const Words& meaning) {
     type_name = name;
     type_meaning = meaning;
   }
   /// Adds a field.
   template <class T>
-  FieldEntry& operator()(std::string_view key, T& member, std::string_view meaning) {
-    return this->member(key, ref_to(member), meaning);
+  FieldEntry& operator()(Words key, T& member, Words meaning) {
+    return this->member(std::move(key), ref_to(member), std::move(meaning));
   }
   /// Adds a field whose fields `describe` adds, for a struct whose description needs more than the object.
-  FieldEntry& nested(std::string_view key, std::function<void(Fields&)> describe, std::string_view meaning) {
-    return member(key, Nested{std::move(describe)}, meaning);
+  FieldEntry& nested(Words key, std::function<void(Fields&)> describe, Words meaning) {
+    return member(std::move(key), Nested{std::move(describe)}, std::move(meaning));
   }
-  FieldEntry& custom(std::string_view key, Custom value, std::string_view meaning) {
-    return member(key, std::move(value), meaning);
+  FieldEntry& custom(Words key, Custom value, Words meaning) {
+    return member(std::move(key), std::move(value), std::move(meaning));
   }
   /// Adds a field with a reference that the caller has made.
-  FieldEntry& member(std::string_view key, MemberRef ref, std::string_view meaning) {
-    return list.emplace_back(FieldEntry{std::string(key), std::string(meaning), std::move(ref)});
+  FieldEntry& member(Words key, MemberRef ref, Words meaning) {
+    if (list.empty()) list.reserve(32);  // moving the entries to a longer list takes long
+    return list.emplace_back(FieldEntry{std::move(key), std::move(meaning), std::move(ref)});
   }
 
-  std::string type_name, type_meaning;
+  Words type_name, type_meaning;
   std::vector<FieldEntry> list;
+  bool are_all = true;   ///< false if the object has other keys, which are read elsewhere
+  Json rules = nullptr;  ///< members of the object's schema for rules across fields
   /// The error for the old name of a key suggests the new one.
   std::vector<std::pair<std::string, std::string>> renamed = {};
   /// The error for a key that was removed says what to do instead.
@@ -296,39 +313,47 @@ struct Kind {
     return Nested{[&member](Fields& fields) { describe(fields, member); }};
   }
 };
-template <class T>
-bool read_numbers(std::vector<T>& numbers, const Json& list, const std::optional<Range>& allowed) {
-  const Range range = allowed.value_or(std::integral<T> ? count_range : any_number);
+template <class List>
+bool read_numbers(List& numbers, const Json& list, const std::optional<Range>& allowed) {
+  using T = typename List::value_type;
+  Range range = allowed.value_or(std::integral<T> ? count_range : any_number);
+  range.high = std::min(range.high, static_cast<double>(std::numeric_limits<T>::max()));
   for (std::size_t k = 0; k < list.size(); ++k) {
-    const Json& value = list[k];
-    if (std::integral<T> ? !value.is_number_integer() : !value.is_number()) return false;
-    const auto number = value.get<double>();
-    if (!range.contains(number) || number > static_cast<double>(std::numeric_limits<T>::max())) return false;
-    numbers[k] = value.get<T>();
+    std::conditional_t<std::integral<T>, std::optional<std::int64_t>, std::optional<double>> number;
+    if constexpr (std::integral<T>) {
+      number = accepted_integer(list[k], range);
+    } else {
+      number = accepted_number(list[k], range);
+    }
+    if (!number) return false;
+    numbers[k] = static_cast<T>(*number);
   }
   return true;
 }
+template <class List>
+Many list_of(List& member) {
+  using T = typename List::value_type;
+  Many many{[&member] { return member.size(); },
+            [&member](std::size_t size) {
+              if constexpr (requires { member.resize(size); }) member.resize(size);
+            },
+            [&member](std::size_t k) { return ref_to(member[k]); }, example_of<T>};
+  if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>)
+    many.numbers = [&member](const Json& list, const std::optional<Range>& allowed) {
+      return read_numbers(member, list, allowed);
+    };
+  return many;
+}
 template <class T>
 struct Kind<std::vector<T>> {
-  static MemberRef of(std::vector<T>& member) {
-    Many many{[&member] { return member.size(); }, [&member](std::size_t size) { member.resize(size); },
-              [&member](std::size_t k) { return ref_to(member[k]); }, example_of<T>};
-    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>)
-      many.numbers = [&member](const Json& list, const std::optional<Range>& allowed) {
-        return read_numbers(member, list, allowed);
-      };
-    return many;
-  }
+  static MemberRef of(std::vector<T>& member) { return list_of(member); }
 };
 template <class T, std::size_t n>
 struct Kind<std::array<T, n>> {
   static MemberRef of(std::array<T, n>& member) {
-    return Many{[] { return n; },
-                [](std::size_t) {},
-                [&member](std::size_t k) { return ref_to(member[k]); },
-                example_of<T>,
-                n,
-                n};
+    auto many = list_of(member);
+    many.least = many.most = n;
+    return many;
   }
 };
 template <class T>

@@ -116,7 +116,7 @@ Json value_schema(const FieldEntry& field, const MemberRef& member, Json& defini
       auto inner = object_schema(fields, definitions);
       definitions[fields.type_name].update(inner);
     }
-    return {{"$ref", "#/definitions/" + fields.type_name}};
+    return {{"$ref", std::string("#/definitions/").append(fields.type_name)}};
   }
   if (const auto* const choice = std::get_if<Choice>(&member)) return {{"enum", choice->names}};
   if (const auto* const custom = std::get_if<Custom>(&member)) {
@@ -158,10 +158,11 @@ Json object_schema(const Fields& fields, Json& definitions) {
     definitions["reason"] = {{"description", "Reason why a value is null: that of the key without `_reason`."},
                              {"type", "string"},
                              {"minLength", 1}};
-    properties[field.key + "_reason"] = {{"$ref", "#/definitions/reason"}};
+    properties[std::string(field.key) + "_reason"] = {{"$ref", "#/definitions/reason"}};
   }
   if (!required.empty()) json["required"] = std::move(required);
   json["additionalProperties"] = false;
+  if (!fields.rules.is_null()) json.update(fields.rules);
   json["properties"] = std::move(properties);
   return json;
 }
@@ -194,7 +195,7 @@ std::string scalar_kind(const FieldEntry& field, const MemberRef& member) {
 
 void add_sections(const Fields& fields, const std::string& path, std::vector<FieldSection>& sections,
                   std::set<std::string>& types) {
-  const auto title = fields.type_name.empty() ? path : fields.type_name;
+  const auto title = fields.type_name.empty() ? path : std::string(fields.type_name);
   if (!fields.type_name.empty() && !types.insert(title).second) return;
   const auto place = sections.size();
   sections.push_back({title, fields.type_meaning, {}});
@@ -203,10 +204,9 @@ void add_sections(const Fields& fields, const std::string& path, std::vector<Fie
     const bool is_list = std::holds_alternative<Many>(core.member);
     FieldRow row{field.key, "", field.unit_name, field.meaning, ""};
     if (const auto inner = fields_in(core.member)) {
-      const auto below = path.empty() ? field.key : path + "." + field.key;
-      row.inner = inner->type_name.empty() ? below : inner->type_name;
+      const auto below = (path.empty() ? "" : path + ".").append(field.key);
+      row.inner = inner->type_name.empty() ? below : std::string(inner->type_name);
       row.kind = is_list ? "list of objects" : "object";
-      if (row.meaning.empty()) row.meaning = inner->type_meaning;
       add_sections(*inner, below, sections, types);
     } else {
       row.kind = (is_list ? "list: " : "") + scalar_kind(field, element_of(core.member));
@@ -261,7 +261,7 @@ void add_numbered(const FieldEntry& field, const std::string& pointer, std::vect
     one.key = numbered(field.key, number);
     one.member = std::get<Many>(field.member).example();
     put_number(one.quantity, number);
-    for (auto& column : columns_of(Fields{"", "", {one}, {}}, pointer)) {
+    for (auto& column : columns_of(Fields{"", "", {one}}, pointer)) {
       column.can_be_absent = true;
       if (column.field.quantity.name.find('*') != std::string::npos) {
         put_number(column.field.quantity, number);

@@ -47,7 +47,7 @@ std::string compact(const Json& value) { return value.dump(); }
 
 Json parsed(std::string_view text, bool throws) { return Json::parse(text, nullptr, throws); }
 
-void put_number(Json& object, const std::string& key, double value) {
+void put_number(Json& object, std::string_view key, double value) {
   if (std::isfinite(value)) {
     object[key] = value;
   } else {
@@ -55,21 +55,14 @@ void put_number(Json& object, const std::string& key, double value) {
   }
 }
 
-void put_absent(Json& object, const std::string& key, std::string_view reason) {
+void put_absent(Json& object, std::string_view key, std::string_view reason) {
   assert(!reason.empty());
   object[key] = nullptr;
-  object[key + "_reason"] = reason;
-}
-
-void put_optional(Json& object, const std::string& key, const std::optional<double>& value, std::string_view reason) {
-  if (value) {
-    put_number(object, key, *value);
-  } else {
-    put_absent(object, key, reason);
-  }
+  object[std::string(key) + "_reason"] = reason;
 }
 
 std::string pointer_step(std::string_view name) {
+  if (name.find_first_of("~/") == std::string_view::npos) return std::string("/").append(name);
   std::string step = "/";
   for (const char c : name) step += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
   return step;

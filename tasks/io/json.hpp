@@ -26,13 +26,10 @@ Json parsed(std::string_view text, bool throws = true);
 
 /// Sets object[key] to a number. JSON has no NaN and no infinity: for these, it sets object[key] to null, and
 /// object[key + "_reason"] to "not a number" or "infinite".
-void put_number(Json& object, const std::string& key, double value);
+void put_number(Json& object, std::string_view key, double value);
 
 /// Sets object[key] to null, and object[key + "_reason"] to the reason.
-void put_absent(Json& object, const std::string& key, std::string_view reason);
-
-/// Calls put_number() if there is a value, and put_absent() with the reason otherwise.
-void put_optional(Json& object, const std::string& key, const std::optional<double>& value, std::string_view reason);
+void put_absent(Json& object, std::string_view key, std::string_view reason);
 
 /// One step of a JSON pointer: "/name", with "~" and "/" escaped according to RFC 6901.
 std::string pointer_step(std::string_view name);

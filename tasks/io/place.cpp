@@ -137,13 +137,14 @@ std::string unknown_name(std::string_view kind, std::string_view name, std::span
                                      : fmt::format("did you mean \"{}\"?", nearest));
 }
 
-JsonPlace JsonPlace::at(const std::string& key) const {
+JsonPlace JsonPlace::at(std::string_view key) const {
   if (!value_.is_object()) not_accepted(fmt::format("an object with the key \"{}\"", key));
   const auto found = value_.find(key);
-  const auto pointer = pointer_ + pointer_step(key);
+  auto pointer = pointer_ + pointer_step(key);
   if (found == value_.end())
-    throw InputError({file_, pointer, "the required key is missing", "", "", problems_ && problems_->of_user() ? "add it" : ""});
-  return {*found, file_, pointer, problems_};
+    throw InputError(
+        {*file_, pointer, "the required key is missing", "", "", problems_ && problems_->of_user() ? "add it" : ""});
+  return {*found, file_, std::move(pointer), problems_};
 }
 
 JsonPlace JsonPlace::at(std::size_t index) const {
@@ -151,11 +152,11 @@ JsonPlace JsonPlace::at(std::size_t index) const {
 }
 
 void JsonPlace::refuse(std::string problem, std::string allowed, std::string suggestion) const {
-  throw InputError({file_, pointer_, std::move(problem), std::move(allowed), std::move(suggestion)});
+  throw InputError({*file_, pointer_, std::move(problem), std::move(allowed), std::move(suggestion)});
 }
 
 void JsonPlace::refuse_with_remedy(std::string problem, std::string remedy) const {
-  throw InputError({file_, pointer_, std::move(problem), "", "", std::move(remedy)});
+  throw InputError({*file_, pointer_, std::move(problem), "", "", std::move(remedy)});
 }
 
 void JsonPlace::not_accepted(std::string_view allowed) const {
@@ -190,26 +191,22 @@ void JsonPlace::expect_keys(std::span<const std::string_view> names,
     auto suggestion = elsewhere ? elsewhere(key) : std::string();
     if (suggestion.empty()) suggestion = nearest_name(key, names);
     const auto pointer = pointer_ + pointer_step(item.key());
-    attempt([&] { JsonPlace(item.value(), file_, pointer).refuse("unknown key", one_of(names), suggestion); });
+    attempt([&] { throw InputError({*file_, pointer, "unknown key", one_of(names), suggestion}); });
     // The missing key is only a consequence of the misspelt key, so it is not reported separately.
     if (problems_ && !suggestion.empty() && !has(suggestion)) problems_->settle(pointer_ + pointer_step(suggestion));
   }
 }
 
 double JsonPlace::number(const Range& range) const {
-  if (!value_.is_number()) not_accepted(number_in(range));
-  const auto x = value_.get<double>();
-  if (!range.contains(x)) not_accepted(number_in(range));
-  return x;
+  const auto x = accepted_number(value_, range);
+  if (!x) not_accepted(number_in(range));
+  return *x;
 }
 
 std::int64_t JsonPlace::integer(const Range& range) const {
-  if (!value_.is_number_integer()) not_accepted(integer_in(range));
-  // Compare as double first: a number beyond 2^63 must be reported as too large, not as negative. Then compare exactly.
-  const auto n = value_.get<std::int64_t>();
-  if (!range.contains(value_.get<double>()) || n > static_cast<std::int64_t>(range.high))
-    not_accepted(integer_in(range));
-  return n;
+  const auto n = accepted_integer(value_, range);
+  if (!n) not_accepted(integer_in(range));
+  return *n;
 }
 
 bool JsonPlace::boolean() const {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -23,6 +26,20 @@ struct Range {
     return (low_excluded ? x > low : x >= low) && (high_excluded ? x < high : x <= high);
   }
 };
+
+/// The number, if the value is one in the range. They are inline because the lists of records are long.
+inline std::optional<double> accepted_number(const Json& value, const Range& range) {
+  if (!value.is_number()) return std::nullopt;
+  const auto x = value.get<double>();
+  return range.contains(x) ? std::optional(x) : std::nullopt;
+}
+inline std::optional<std::int64_t> accepted_integer(const Json& value, const Range& range) {
+  if (!value.is_number_integer()) return std::nullopt;
+  // Compare as double first: a number beyond 2^63 must be too large, not negative. Then compare exactly.
+  const auto n = value.get<std::int64_t>();
+  const bool accepted = range.contains(value.get<double>()) && n <= static_cast<std::int64_t>(range.high);
+  return accepted ? std::optional(n) : std::nullopt;
+}
 
 /// Texts that describe the allowed numbers: "a number in (0, 1]", "an integer from 1 to 20".
 std::string number_in(const Range& range);
@@ -71,14 +88,14 @@ class JsonPlace {
  public:
   /// If `problems` is given, attempt() collects errors in it. Otherwise the first error ends the reading.
   JsonPlace(const Json& value, std::string file, std::string pointer = "", Problems* problems = nullptr)
-      : value_(value), file_(std::move(file)), pointer_(std::move(pointer)), problems_(problems) {}
+      : JsonPlace(value, std::make_shared<const std::string>(std::move(file)), std::move(pointer), problems) {}
 
   const Json& value() const { return value_; }
-  const std::string& file() const { return file_; }
+  const std::string& file() const { return *file_; }
   const std::string& pointer() const { return pointer_; }
 
-  bool has(const std::string& key) const { return value_.contains(key); }
-  JsonPlace at(const std::string& key) const;  ///< throws InputError if the value is not an object with this key
+  bool has(std::string_view key) const { return value_.contains(key); }
+  JsonPlace at(std::string_view key) const;  ///< throws InputError if the value is not an object with this key
   JsonPlace at(std::size_t index) const;
 
   /// Throws an InputError for this value, with the allowed values.
@@ -110,11 +127,11 @@ class JsonPlace {
   /// Calls `work` with the value of a key, inside attempt(). The key is required for read(), and optional for
   /// read_if_any().
   template <class Work>
-  void read(const std::string& key, const Work& work) const {
+  void read(std::string_view key, const Work& work) const {
     attempt([&] { work(at(key)); });
   }
   template <class Work>
-  void read_if_any(const std::string& key, const Work& work) const {
+  void read_if_any(std::string_view key, const Work& work) const {
     if (has(key)) read(key, work);
   }
 
@@ -142,8 +159,12 @@ class JsonPlace {
   }
 
  private:
+  JsonPlace(const Json& value, std::shared_ptr<const std::string> file, std::string pointer, Problems* problems)
+      : value_(value), file_(std::move(file)), pointer_(std::move(pointer)), problems_(problems) {}
+
   const Json& value_;
-  std::string file_, pointer_;
+  std::shared_ptr<const std::string> file_;  ///< shared by all places of a document
+  std::string pointer_;
   Problems* problems_;
 };
 

@@ -28,19 +28,17 @@ std::size_t digits_in(std::string_view text) {
 /// Throws if the text is nested too deeply. Copying or writing a parsed value uses stack in proportion to the nesting.
 void check_depth(std::string_view text, const std::string& file) {
   std::size_t depth = 0;
-  bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      in_string = c != '"';
+    if (c == '"') {
+      while (++i < text.size() && text[i] != '"') i += text[i] == '\\';
+    } else if (c < '[') {
+      continue;  // most characters are digits and spaces
     } else if (c == '[' || c == '{') {
       if (++depth > most_levels)
         throw InputError({file, "", std::string(nested_too_deeply), fmt::format("at most {} levels", most_levels), ""});
     } else if (c == ']' || c == '}') {
       depth -= depth > 0;
-    } else {
-      in_string = c == '"';
     }
   }
 }

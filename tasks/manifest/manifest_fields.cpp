@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "tasks/io/options.hpp"
 #include "tasks/manifest/base.hpp"
 #include "tasks/manifest/by_solid.hpp"
 #include "tasks/manifest/manifest.hpp"
@@ -74,7 +73,8 @@ void swept_fields(Fields& fields, Manifest& manifest) {
   auto& swept = manifest.swept;
   for (const auto& parameter : all_parameters()) {
     auto& field = fields.list.emplace_back(parameter.field);
-    const auto& name = field.key = parameter.name;
+    const std::string name = parameter.name;
+    field.key = name;
     auto path = parameter.pointer.substr(1);
     std::replace(path.begin(), path.end(), '/', '.');
     field.meaning = fmt::format("Values of `{}`.", path);

@@ -47,9 +47,8 @@ void describe(Fields& field, Supported& supported) {
 }
 
 void describe_classes(Fields& field, Exponents& exponents) {
-  const auto add = [&](std::string_view key, Reasoned<>& value, std::string_view name, std::string_view latex,
-                       std::string_view meaning) {
-    field(key, value, meaning).unit("per particle").column({std::string(name), group, std::string(latex)});
+  const auto add = [&](const char* key, Reasoned<>& value, const char* name, const char* latex, const char* meaning) {
+    field(key, value, meaning).unit("per particle").column({name, group, latex});
   };
   add("C", exponents.C, "C_x", "C^x", "Constraint number C = 3 Z_ff + 2 Z_ef + Z_l with classes from exponents.");
   add("C_low", exponents.C_low, "C_x_low", "C^x_{low}",

@@ -24,7 +24,7 @@ void describe(Fields& field, NearRattler& rattler) {
 
 namespace {
 
-constexpr std::string_view frequency = "V_p^(-1/3) sqrt(Y/ρ)";
+constexpr const char* frequency = "V_p^(-1/3) sqrt(Y/ρ)";
 constexpr QuantityGroup group{"modes", "Vibrational modes at both ends of the spectrum."};
 
 /// The modes at one end of the spectrum.

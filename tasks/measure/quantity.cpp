@@ -29,7 +29,7 @@ void add(std::vector<Placed>& list, const Fields& fields, Quantity::Of of, std::
   for (auto& [name, pointer, field, can_be_absent] : columns_of(fields)) {
     const Column& column = field.quantity;
     if (column.name.empty()) continue;
-    list.push_back({{name, pointer, column.group, field.unit_name.empty() ? "1" : field.unit_name, column.latex,
+    list.push_back({{name, pointer, column.group, field.unit_name.empty() ? Words("1") : field.unit_name, column.latex,
                      column.meaning.empty() ? field.meaning : column.meaning, of, measure, column.proportion,
                      column.kinds, column.cohesive},
                     column.place});

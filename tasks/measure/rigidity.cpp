@@ -29,7 +29,7 @@ void describe(Fields& field, Ranks& ranks) {
   const std::string if_classes =
       "if a face-face contact has three constraints, an edge-face contact two and a lower-order contact one.";
   const auto add = [&](const std::string& key, Rank& rank, const std::string& letter, const std::string& condition,
-                       std::string_view meaning) {
+                       const char* meaning) {
     field.nested(
         key, [=, &rank](Fields& inner) { describe_rank(inner, rank, key, letter, condition); }, meaning);
   };

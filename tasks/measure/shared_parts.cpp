@@ -71,7 +71,7 @@ Scaling scaling_of(const JamResult& jam, const std::vector<std::optional<double>
 }
 
 void add_scaling(Fields& field, const std::string& key, Scaling& law, const std::string& name, std::string_view latex,
-                 std::string_view symbol, std::string_view meaning) {
+                 std::string_view symbol, const Words& meaning) {
   const Column exponent{"x_" + name,
                         {"exponents", "Exponents of power laws in the distance to jamming Δφ."},
                         fmt::format("x_{}", latex),

@@ -67,7 +67,7 @@ struct Scaling {
 Scaling scaling_of(const JamResult& jam, const std::vector<std::optional<double>>& y);
 /// Adds the law of the quantity with this symbol. The exponent is a quantity too; its name is "x_" and `name`.
 void add_scaling(Fields& field, const std::string& key, Scaling& law, const std::string& name, std::string_view latex,
-                 std::string_view symbol, std::string_view meaning);
+                 std::string_view symbol, const Words& meaning);
 /// Largest Δφ of the states in these fits. It is the default fit window of φ_J. At larger Δφ, y does not follow one
 /// power law.
 inline constexpr double scaling_window = 0.02;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr QuantityGroup group{"strict jamming",
                               "Stability of the packing if the shape and the volume of the cell may change."};
-constexpr std::string_view meaning_of_deviator =
+constexpr const char* meaning_of_deviator =
     "Deviation of the stress from hydrostatic stress: the largest absolute entry of the matrix σ + p·1, divided by p.";
 
 struct Strict {
@@ -52,7 +52,7 @@ struct Freed {
   Reasoned<> jammed, strain, phi_j;
   MinimumSearchEnd ended = MinimumSearchEnd::not_called;
   StopReason stopped = StopReason::not_called;
-  Reasoned<> phi, deviator;
+  Reasoned<> density, deviator;
   int negative = 0, descents = 0;
 };
 void describe(Fields& field, Freed& freed) {
@@ -75,7 +75,7 @@ void describe(Fields& field, Freed& freed) {
         "found along the mode. `undetermined`: The modes could not be computed or counted. `not_called`: Nothing was "
         "relaxed, because the state nearest jamming has no pressure, or its forces do not balance.");
   field("stopped", freed.stopped, "Reason for the end of the last minimisation.");
-  field("density", freed.phi, "Density φ after the relaxation.");
+  field("density", freed.density, "Density φ after the relaxation.");
   field("deviator", freed.deviator, meaning_of_deviator).range(not_negative);
   field("negative", freed.negative,
         "Number of negative modes of the particles and the six strains together, after the relaxation.");
@@ -109,7 +109,7 @@ Strict strict_record(const Packing& packing, PackingEnergy& energy) {
 Freed freed_record(const Packing& packing, const JamStep& step, PackingEnergy& energy) {
   Freed record;
   if (const auto why = not_jammed(packing, energy)) {
-    for (auto* value : {&record.jammed, &record.strain, &record.phi_j, &record.phi, &record.deviator})
+    for (auto* value : {&record.jammed, &record.strain, &record.phi_j, &record.density, &record.deviator})
       value->reason = *why;
     return record;
   }

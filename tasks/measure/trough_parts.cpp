@@ -88,7 +88,7 @@ void describe(Fields& field, TroughRecord& trough) {
 }
 
 void describe(Fields& field, Troughs& troughs) {
-  const auto add = [&](std::string_view key, Reasoned<>& value, const Column& column, const std::string& meaning) {
+  const auto add = [&](const char* key, Reasoned<>& value, const Column& column, const std::string& meaning) {
     field(key, value, meaning).unit("per particle").column(column);
   };
   const std::string with_both =

@@ -55,13 +55,13 @@ class Shortener {
   std::string text() && { return std::move(text_); }
 
  private:
-  /// Adds a line. Commas are set anew, because neighbouring lines may have been left out.
+  /// Adds a line without its indent. Commas are set anew, because neighbouring lines may have been left out.
   void append(std::string_view line, std::size_t indent) {
     const bool closes = indent < line.size() && (line[indent] == '}' || line[indent] == ']');
     const char last = text_.empty() ? '{' : text_.back();
     if (closes && last == ',') text_.pop_back();
     if (!closes && last != ',' && last != '{' && last != '[') text_ += ',';
-    text_.append("\n").append(line);
+    text_.append(line.substr(indent));
   }
 
   /// In the measures of a state, only the keys of quantities are needed.

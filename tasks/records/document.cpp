@@ -6,22 +6,34 @@
 namespace isojam {
 namespace {
 
+/// The fields of all measures. They are collected once, because each state has them.
+template <MeasurePart MeasureDefinition::*part>
+const Fields& measured_fields() {
+  static const Fields all = [] {
+    Fields fields;
+    for (const Measure measure : all_measures) {
+      if (const auto& of = (definition_of(measure).*part).fields)
+        for (auto& entry : of().list) fields.list.push_back(std::move(entry));
+    }
+    return fields;
+  }();
+  return all;
+}
+
 /// Adds fields that are written from JSON. They are not read, because tables take single values from the file's JSON.
+/// `fields` must live as long as the program.
 void add_json(Fields& field, Json& measured, const Fields& fields) {
   for (const auto& entry : fields.list) {
     Custom value;
-    value.write = [&measured, key = entry.key] { return measured.contains(key) ? measured.at(key) : Json(nullptr); };
+    value.write = [&measured, &entry] {
+      const auto found = measured.find(entry.key);
+      return found == measured.end() ? Json(nullptr) : *found;
+    };
     value.read = [](const JsonPlace&) {};
     const auto* const maybe = std::get_if<Maybe>(&entry.member);
     const MemberRef member = maybe ? maybe->example() : entry.member;
     value.fields = std::get<Nested>(member).describe;
     field.custom(entry.key, std::move(value), entry.meaning).optional();
-  }
-}
-
-void add_parts(Fields& field, Json& measured, MeasurePart MeasureDefinition::*part) {
-  for (const Measure measure : all_measures) {
-    if (const auto& fields = (definition_of(measure).*part).fields) add_json(field, measured, fields());
   }
 }
 
@@ -37,7 +49,7 @@ void describe_timing(Fields& field, Timing& timing, std::map<std::string, double
       .range(not_negative)
       .finite();
   const auto describe_stages = [&stages](Fields& inner) {
-    const auto add = [&](const std::string& name, const std::string& meaning) {
+    const auto add = [&](const std::string& name, const Words& meaning) {
       Custom value{[&stages, name] { return stages.contains(name) ? Json(stages.at(name)) : Json(nullptr); },
                    [&stages, name](const JsonPlace& place) { stages[name] = place.number(not_negative); },
                    {{"type", "number"}, {"minimum", 0}},
@@ -56,7 +68,7 @@ void describe_timing(Fields& field, Timing& timing, std::map<std::string, double
 /// The specification remains JSON in a record. It is written by to_json(const ReplicateSpec&).
 void describe_spec(Fields& field) {
   static ReplicateSpec example;
-  const auto add = [&](std::string_view key, const Json& type, std::string_view meaning) -> FieldEntry& {
+  const auto add = [&](const char* key, const Json& type, const char* meaning) -> FieldEntry& {
     return field.custom(key, {[] { return Json(nullptr); }, nullptr, {{"type", type}}, type.get<std::string>()},
                         meaning);
   };
@@ -70,17 +82,6 @@ void describe_spec(Fields& field) {
 }
 
 }  // namespace
-
-/// The digest that identifies a replicate. Records of earlier versions have that of their manifest in its place.
-static void describe_digest(Fields& field, std::string& digest, std::string_view meaning) {
-  const auto read = [&digest](const JsonPlace& place) { digest = place.text(); };
-  const Json text{{"type", "string"}};
-  field("spec_digest", digest, meaning).optional();
-  field
-      .custom("manifest_digest", {[] { return Json(); }, read, text, "text"},
-              "Digest of the manifest; only in records of earlier versions of isojam, in place of `spec_digest`.")
-      .optional();
-}
 
 Provenance provenance_of(const ReplicateSpec& spec) {
   Provenance provenance{
@@ -157,7 +158,7 @@ void describe(Fields& field, StateRow& row) {
   field.type("state", "One state of the decompression, with the results of all measures for this state.");
   describe(field, row.step, row.delta_phi, StepOf::state);
   field("step", row.index, "Index of this state in the list `path` of the record, counted from 0.");
-  add_parts(field, row.measured, &MeasureDefinition::state);
+  add_json(field, row.measured, measured_fields<&MeasureDefinition::state>());
 }
 
 void describe(Fields& field, Record& record) {
@@ -192,8 +193,9 @@ void describe(Fields& field, Record& record) {
   field("nearest", record.nearest,
         "Index in `states` of the state nearest jamming. Its packing is in a file of `packings/`, which has the same "
         "name as the file of this record. Null if the replicate failed.");
-  add_parts(field, record.measured, &MeasureDefinition::replicate);
-  add_json(field, record.measured, fields_of<RearrangementPart>());
+  static const Fields rearrangements = fields_of<RearrangementPart>();
+  add_json(field, record.measured, measured_fields<&MeasureDefinition::replicate>());
+  add_json(field, record.measured, rearrangements);
   field("nearest_only", record.nearest_only,
         "Measures that were computed only for the state nearest jamming, because `isojam measure` added them and the "
         "path was not kept. The other states lack their values. Absent if there are none.");

@@ -5,7 +5,6 @@
 
 #include "tasks/io/hash.hpp"
 #include "tasks/measure/rearrangements.hpp"
-#include "tasks/packings/packing_json.hpp"
 #include "tasks/records/document.hpp"
 #include "tasks/records/state_file.hpp"
 
@@ -84,6 +83,10 @@ void set_results(Record& record, const Outcome& outcome) {
     record.cycles->push_back({cycle.energy_per_particle, reasoned(cycle.phi_j, "fewer than two states")});
 }
 
+RecordIdentity identity_of(const Outcome& outcome, const std::string& result_digest) {
+  return {replicate_name(outcome.spec), spec_digest(outcome.spec), result_digest};
+}
+
 /// The JSON of a record with its digest.
 Json with_digest(const Record& record) {
   Json json = written(record);
@@ -160,23 +163,16 @@ Record failed_record(Record before, const ReplicateSpec& spec) {
 
 Json make_packing(const Outcome& outcome, const std::string& result_digest) {
   assert(!outcome.failure && !outcome.interrupted);
-  auto json = state_file_head(packing_schema, {replicate_name(outcome.spec), spec_digest(outcome.spec), result_digest});
-  json.update(to_json(outcome.jam.states[*nearest_state(outcome.jam)]));
-  return json;
+  return written(PackingFile{{std::string(packing_schema), identity_of(outcome, result_digest)},
+                             stored(outcome.jam.states[*nearest_state(outcome.jam)])});
 }
 
 Json make_path(const Outcome& outcome, const std::string& result_digest) {
   assert(!outcome.failure && !outcome.interrupted);
-  auto json = state_file_head(path_schema, {replicate_name(outcome.spec), spec_digest(outcome.spec), result_digest});
-  json["states"] = Json::array();
-  for (const auto& packing : outcome.jam.states) {
-    Json state;
-    const auto delta_phi = distance(packing.density(), outcome.jam);
-    put_optional(state, "delta_phi", delta_phi.value, delta_phi.reason);
-    state.update(to_json(packing));
-    json["states"].push_back(std::move(state));
-  }
-  return json;
+  PathFile file{{std::string(path_schema), identity_of(outcome, result_digest)}, {}};
+  for (const auto& packing : outcome.jam.states)
+    file.states.push_back({distance(packing.density(), outcome.jam), stored(packing)});
+  return written(file);
 }
 
 }  // namespace isojam

@@ -14,7 +14,7 @@ namespace {
 /// key, or empty if the key is missing.
 template <class TextAt>
 std::string difference(std::string_view schema, const RecordIdentity& identity, const TextAt& text_at) {
-  const Json expected = state_file_head(schema, identity);
+  const Json expected = written(StateFileHead{std::string(schema), identity});
   for (const auto& item : expected.items()) {
     const auto& key = item.key();
     // Files of earlier versions have the digest of the manifest in place of that of the specification.
@@ -31,18 +31,55 @@ void check_head(const std::string& file, std::string_view schema, std::span<cons
   if (std::any_of(identities.begin(), identities.end(), is_own)) return;
   const auto key = difference(schema, identities.front(), text_at);
   throw InputError({file, pointer_step(key), fmt::format("\"{}\" does not match the record", text_at(key)),
-                    state_file_head(schema, identities.front()).at(key).dump(), ""});
+                    written(StateFileHead{std::string(schema), identities.front()}).at(key).dump(), ""});
 }
 
 }  // namespace
 
-Json state_file_head(std::string_view schema, const RecordIdentity& identity) {
-  Json json;
-  json["schema"] = schema;
-  json["replicate"] = identity.replicate;
-  json["spec_digest"] = identity.spec_digest;
-  json["result_digest"] = identity.result_digest;
-  return json;
+void describe_digest(Fields& field, std::string& digest, const char* meaning) {
+  const auto read = [&digest](const JsonPlace& place) { digest = place.text(); };
+  field("spec_digest", digest, meaning).optional();
+  field
+      .custom("manifest_digest", {[] { return Json(); }, read, {{"type", "string"}}, "text"},
+              "Digest of the manifest; only in files of earlier versions of isojam, in place of `spec_digest`.")
+      .optional();
+}
+
+void describe(Fields& field, StateFileHead& file) {
+  field("schema", file.schema, "Name and version of the file format.");
+  field("checksum", file.checksum,
+        "64-bit FNV-1a checksum of the text of the file. It is computed with zeros in place of the 16 digits of this "
+        "field.");
+  field("replicate", file.identity.replicate, "Name of the replicate. It is also the name of the file of its record.");
+  describe_digest(field, file.identity.spec_digest,
+                  "Digest of the specification of the replicate without measures, and of the seed, as in the record.");
+  field("result_digest", file.identity.result_digest,
+        "Field `result_digest` of the record. If measures were added later, it may be the digest from before an "
+        "addition.");
+}
+
+void describe(Fields& field, PackingFile& file) {
+  field.type("",
+             "The state nearest jamming of a replicate. Lengths are in units of V_p^(1/3), where V_p is the mean "
+             "particle volume. Each exact coordinate is the sum of two doubles; fields whose names end in `_low` "
+             "contain the second, smaller one. Near jamming, a state has a residual below 1e-8 only if both doubles "
+             "are added.");
+  describe(field, file.head);
+  describe(field, file.packing);
+}
+
+void describe(Fields& field, PathState& state) {
+  field("delta_phi", state.delta_phi, "Distance to jamming, Δφ = φ − φ_J; null if there is no φ_J.").range({-1, 1});
+  describe(field, state.packing);
+}
+
+void describe(Fields& field, PathFile& file) {
+  field.type("",
+             "All states of the decompression of a replicate; isojam writes them if the manifest sets `keep_path`. The "
+             "units are those of packing files.");
+  describe(field, file.head);
+  field("states", file.states, "States of the decompression, in the order of the list `states` of the record.")
+      .length(1);
 }
 
 void check_state_file(const std::string& file, std::string_view schema, std::span<const RecordIdentity> identities) {

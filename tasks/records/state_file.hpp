@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "tasks/io/json.hpp"
+#include "tasks/packings/packing_json.hpp"
 
 namespace isojam {
 
@@ -15,8 +15,33 @@ struct RecordIdentity {
   std::string spec_digest, result_digest;
 };
 
+/// The digest that identifies a replicate. Files of earlier versions have that of their manifest in its place.
+void describe_digest(Fields& field, std::string& digest, const char* meaning);
+
 /// The first members of a packing file or a path file.
-Json state_file_head(std::string_view schema, const RecordIdentity& identity);
+struct StateFileHead {
+  std::string schema;
+  RecordIdentity identity;
+  std::optional<std::string> checksum = std::nullopt;
+};
+void describe(Fields& field, StateFileHead& head);
+/// A packing file, with the nearest state of a replicate.
+struct PackingFile {
+  StateFileHead head;
+  StoredPacking packing;
+};
+void describe(Fields& field, PackingFile& file);
+/// A path file, with all states of the decompression.
+struct PathState {
+  Reasoned<> delta_phi;
+  StoredPacking packing;
+};
+void describe(Fields& field, PathState& state);
+struct PathFile {
+  StateFileHead head;
+  std::vector<PathState> states;
+};
+void describe(Fields& field, PathFile& file);
 
 /// Checks a packing file or a path file. `identities` are the identity of its record, and the identities that the
 /// record had before measures were added; the file must have one of them. Throws FileError if the file does not exist

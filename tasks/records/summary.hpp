@@ -44,7 +44,7 @@ struct RecordSummary {
   };
   /// one element for each time that measures were added
   std::vector<Before> before;
-  std::vector<Measure> measures;  ///< measures of the record, without those that this version of isojam does not know
+  std::vector<Measure> measures;
   std::vector<Measure> nearest_only;  ///< measures whose values are only those of the nearest state
   Json settings;                      ///< protocol, minimiser, modes; also shear if it was measured
   std::string build;                  ///< version, commit and compiler of the program that made the record
@@ -52,8 +52,8 @@ struct RecordSummary {
   std::string result_digest;
   double cpu_seconds = 0;
   bool failed = false, flagged = false;
-  std::vector<Flag> flags;      ///< flags of the replicate, without those that this version of isojam does not know
-  Values values = no_values();  ///< quantities of the replicate, and quantities of its nearest state
+  std::vector<Flag> flags;
+  Values values = no_values();           ///< quantities of the replicate, and quantities of its nearest state
   std::optional<AngleHistogram> angles;  ///< of the nearest state; nullopt if the record lacks it
   std::vector<StateValues> states;       ///< states with Δφ > 0, sorted by Δφ
   std::optional<double> residual;        ///< largest residual of the states that were used to fit φ_J

@@ -1,7 +1,6 @@
 #include <numbers>
 
 #include "engine/analysis/alignment/critical_angles.hpp"
-#include "tasks/io/options.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/measure/trough_parts.hpp"
 #include "tasks/tables/tables.hpp"
@@ -80,8 +79,8 @@ void describe_estimate(Fields& field, Estimate& estimate) {
 }
 
 /// Adds an object that is absent unless `is_there`.
-void add_object(Fields& field, std::string_view key, bool is_there, const std::function<void(Fields&)>& describe_it,
-                std::string_view meaning) {
+void add_object(Fields& field, const Words& key, bool is_there, const std::function<void(Fields&)>& describe_it,
+                const Words& meaning) {
   const auto write = [is_there, describe_it] {
     Fields inner;
     if (is_there) describe_it(inner);
@@ -90,24 +89,24 @@ void add_object(Fields& field, std::string_view key, bool is_there, const std::f
   field.custom(key, {write, nullptr, nullptr, "", describe_it}, meaning).optional();
 }
 
-void add_estimate(Fields& field, std::string_view key, Estimate& estimate, bool is_there, std::string_view meaning) {
+void add_estimate(Fields& field, const Words& key, Estimate& estimate, bool is_there, const Words& meaning) {
   add_object(
       field, key, is_there, [&estimate](Fields& inner) { describe_estimate(inner, estimate); }, meaning);
 }
 
-/// Adds all quantities of the first group, and those quantities of the other groups that have a value.
-void add_estimates(Fields& field, Estimates& estimates) {
+/// Adds all quantities of the first group, and those quantities of the other groups that have a value. Their meanings
+/// are stated once, in the row.
+void add_estimates(Fields& field, Estimates& estimates, bool with_meanings) {
   const auto quantities = all_quantities();
   for (std::size_t i = 0; i < quantities.size(); ++i)
     add_estimate(field, quantities[i].name, estimates[i], is_always_listed(quantities[i]) || estimates[i].n > 0,
-                 quantities[i].meaning);
+                 with_meanings ? quantities[i].meaning : "");
 }
 
 void add_estimates_with_values(Fields& field, Estimates& estimates, std::optional<Quantity::Of> of) {
   const auto quantities = all_quantities();
   for (std::size_t i = 0; i < quantities.size(); ++i) {
-    if (!of || quantities[i].of == *of)
-      add_estimate(field, quantities[i].name, estimates[i], estimates[i].n > 0, quantities[i].meaning);
+    if (!of || quantities[i].of == *of) add_estimate(field, quantities[i].name, estimates[i], estimates[i].n > 0, "");
   }
 }
 
@@ -117,7 +116,7 @@ void describe_trough(Fields& field, PooledTrough& trough) {
       "Troughs in the densities of the alignment angles of all replicates together, and contact numbers with the "
       "cut-offs in these troughs. Replicates that failed or are excluded do not count.");
   field("replicates", trough.replicates, "Number of replicates whose angles are combined.");
-  const auto add_trough = [&](std::string_view key, const Trough& of, std::string_view meaning) {
+  const auto add_trough = [&](const char* key, const Trough& of, const char* meaning) {
     const auto describe_it = [&of, &trough](Fields& inner) {
       static thread_local TroughRecord record;
       record = trough_record(of, trough.particles);
@@ -130,7 +129,7 @@ void describe_trough(Fields& field, PooledTrough& trough) {
   add_trough("edge_face", trough.cutoffs.edge_face,
              "Trough of the density of θ_ef of the contacts that are not face-face. It gives the cut-off of edge-face "
              "contacts.");
-  constexpr std::array<std::string_view, 6> meanings{
+  constexpr std::array<const char*, 6> meanings{
       "Mean number of face-face contacts per particle.",
       "Mean number of edge-face contacts per particle.",
       "Mean number of lower-order contacts per particle.",
@@ -155,7 +154,7 @@ void add_trough_of(Fields& field, std::optional<PooledTrough>& trough) {
       "angles.");
 }
 
-constexpr std::string_view all_meaning =
+constexpr const char* all_meaning =
     "Estimates that include the excluded replicates. Absent if no replicate is excluded.";
 
 void describe_series(Fields& field, SeriesPoint& point, bool with_all) {
@@ -201,7 +200,7 @@ void describe_differences(Fields& field, Differences& differences) {
 /// Critical angles in degrees.
 void describe_critical_angles(Fields& field, const Mixture& solid) {
   const auto angles = critical_angles(solid);
-  const auto add = [&](std::string_view key, double angle, std::string_view meaning) {
+  const auto add = [&](const char* key, double angle, const char* meaning) {
     field
         .custom(key,
                 output([angle] { return angle * 180 / std::numbers::pi; },
@@ -244,10 +243,10 @@ void describe(Fields& field, Row& row) {
       "Progress of the stopping rule in this row. Absent if the manifest has no stopping rule, or if the tables "
       "combine "
       "manifests with different stopping rules.");
-  add_estimates(field, row.estimates);
+  add_estimates(field, row.estimates, true);
   add_trough_of(field, row.trough);
   add_object(
-      field, "all", row.excluded > 0, [&row](Fields& inner) { add_estimates(inner, row.all); }, all_meaning);
+      field, "all", row.excluded > 0, [&row](Fields& inner) { add_estimates(inner, row.all, false); }, all_meaning);
   add_object(
       field, "differences", row.differences.has_value(),
       [&of = value_or_static(row.differences)](Fields& inner) { describe_differences(inner, of); },

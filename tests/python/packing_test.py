@@ -29,30 +29,13 @@ class Exported(support.Case):
 
     def test_xyz(self):
         for packing, values, particles, _ in self.packings():
-            self.assertEqual((packing.density, packing.delta_phi), (float(values["phi"]), float(values["delta_phi"])))
+            self.assertEqual((packing.density, packing.delta_phi), (float(values["density"]), float(values["delta_phi"])))
             cell = numpy.array(values["Lattice"].split(), dtype=float).reshape(3, 3)
             numpy.testing.assert_array_equal(packing.cell, cell)
             shifts = (packing.positions - particles["pos"]) @ numpy.linalg.inv(cell)
             self.near(shifts, numpy.round(shifts), 64 * results.DOUBLE, "whole translations")
             self.near(packing.orientations, numpy.roll(particles["orientation"], 1, axis=1), 4 * results.DOUBLE, "w, x, y, z")
             self.assertEqual(set(packing.solid_names), set(particles["species"]))
-
-    def test_corners(self):
-        for packing, _, particles, stem in self.packings():
-            vertices, _ = results.read_obj(stem.with_name(stem.name + ".obj"))
-            turns = results.rotation(numpy.roll(particles["orientation"], 1, axis=1))
-            for i in (0, len(packing) - 1):
-                self.near(packing.corners(i) - packing.positions[i], vertices @ turns[i].T, 64 * results.DOUBLE, "corners")
-
-    def test_gsd(self):
-        for name in support.done(CUBES):
-            packings = support.study(CUBES).path(name)
-            with gsd.hoomd.open(str(EXPORTED / "exported/path" / (name + ".gsd"))) as trajectory:
-                self.assertEqual(len(trajectory), len(packings))
-                for snapshot, packing in zip(trajectory, packings):
-                    shifts = (packing.positions - snapshot.particles.position) / packing.side
-                    self.near(shifts, numpy.round(shifts), 4 * results.FLOAT, "whole translations")
-                    self.near(packing.orientations, snapshot.particles.orientation, 4 * results.FLOAT, "orientations")
 
     def test_density_and_low_parts(self):
         for directory in support.ALL:

@@ -1,13 +1,9 @@
 """Tests isojam.run, isojam.measure and isojam.aggregate."""
 
-import contextlib
 import json
 import os
 import pathlib
-import shutil
-import signal
 import subprocess
-import sys
 import tempfile
 import types
 import warnings
@@ -163,43 +159,5 @@ class Failures(Case):
             self.assertRaisesRegex(isojam.ProgramError, "/no/such", isojam.run, MANIFEST, "r")
 
 
-class Interruption(Case):
-    REPLICATES = 12
-
-    def interrupt(self, manifest):
-        """Runs a study until the first replicate is recorded, and then sends SIGINT to Python, as Ctrl-C does."""
-        def tqdm(total, **_):
-            bar = mock.Mock(total=total, n=0)
-
-            def update(done):
-                bar.n += done
-                if bar.n > 0:
-                    os.kill(os.getpid(), signal.SIGINT)
-
-            bar.update = update
-            return bar
-
-        before = signal.signal(signal.SIGINT, signal.default_int_handler)
-        try:
-            with mock.patch.dict(sys.modules, {"tqdm": types.ModuleType("tqdm"),
-                                               "tqdm.auto": types.SimpleNamespace(tqdm=tqdm)}):
-                self.assertRaises(KeyboardInterrupt, isojam.run, manifest, "r", 1)
-        finally:
-            signal.signal(signal.SIGINT, before)
-
-    def test_an_interrupted_run_is_resumed_to_the_bytes_of_an_undisturbed_one(self):
-        manifest = {**MANIFEST, "replicates": self.REPLICATES}
-        expected = contents(self.run_quietly(manifest, "undisturbed").directory)
-        self.interrupt(manifest)
-        recorded = len(list(pathlib.Path("r/records").glob("*.json")))
-        self.assertTrue(0 < recorded < self.REPLICATES, recorded)
-        # The program has ended: nothing holds the directory any more, and no temporary file is left.
-        shutil.copytree("r", "copy")
-        self.assertEqual([file for file in pathlib.Path("r").rglob("*") if "tmp" in file.name], [])
-        self.assertEqual(contents(self.run_quietly(manifest, "r").directory), expected)
-        self.assertEqual(contents(self.run_quietly(manifest, "copy").directory), expected)
-
-
 if __name__ == "__main__":
-    with contextlib.suppress(KeyboardInterrupt):
-        support.main()
+    support.main()

@@ -72,14 +72,6 @@ class Rows(support.Case):
         print(f"{compared} values compared, {nulls} reasons")
         self.assertGreater(min(compared, 20 * nulls), 300)
 
-    def test_other_numbers_of_records_are_columns(self):
-        row = support.study(CUBES).replicates.iloc[0]
-        record = support.document(CUBES, "records", row["replicate"])
-        for name, value in (("phi_j.single_state", record["phi_j"]["single_state"]), ("work.hessians", record["work"]["hessians"]),
-                            ("evaluations", record["evaluations"]), ("wall_seconds", record["timing"]["wall_seconds"]),
-                            ("spec_digest", record["provenance"]["spec_digest"])):
-            self.assertEqual(row[name], value, name)
-
     def test_what_failed(self):
         replicates = support.study(MIXED).replicates
         failed = replicates[replicates["status"] == "failed"]
@@ -121,23 +113,6 @@ class Rows(support.Case):
 
 
 class Means(support.Case):
-    def test_means_of_rows_are_those_of_the_table(self):
-        compared = 0
-        for directory in ALL:
-            study = support.study(directory)
-            table = study.table()
-            point = list(table.columns[:table.columns.get_loc("replicates")])
-            for over, rows in (("kept", study.replicates.kept), ("all", study.replicates)):
-                lines = table[table["over"] == over].set_index(point)
-                for name in [name for name in rows if f"{name}_mean" in lines]:
-                    means = rows.groupby(point)[name].mean().dropna()
-                    for of, mean in means.items():
-                        if of in lines.index:
-                            self.near(mean, lines.loc[of, f"{name}_mean"], 1e-14 * rows[name].abs().max(), name)
-                            compared += 1
-        print(f"{compared} means compared")
-        self.assertGreater(compared, 100)
-
     def test_the_table_is_that_of_the_program(self):
         for directory in ALL:
             for series in (False, True):

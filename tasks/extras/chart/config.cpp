@@ -6,53 +6,10 @@
 
 #include "engine/packing/cell/periodic_cell.hpp"
 #include "engine/solve/jam.hpp"
-#include "tasks/io/options.hpp"
 #include "tasks/io/parse.hpp"
 
 namespace isojam {
 namespace {
-
-constexpr Range seed_range{0, 9007199254740992};  // 2^53: every JSON reader represents smaller integers exactly
-constexpr Range few_range{1, 1000};
-constexpr Range particle_range{8, 2000};
-constexpr Range distance_range{1e-3, 0.2};
-constexpr Range tolerance_range{0, 1, true};
-constexpr Range subspace_range{60, 1000};
-constexpr Range evaluation_range{10, 1e7};
-constexpr Range second_range{0, 1e6, true};
-
-/// Visits every field with its key and range. One list serves for reading and writing, so the two cannot differ.
-template <class Config, class Visitor>
-void visit_chart(Config& config, const Visitor& visit) {
-  visit("compare", config.compare, Range{});
-  visit("solids", config.solids, Range{});
-  visit("seed", config.seed, seed_range);
-  visit("particles", config.particles, particle_range);
-  visit("packings", config.packings, few_range);
-  visit("distances", config.distances, distance_range);
-  visit("fit_window", config.fit_window, distance_range);
-  visit("tolerances", config.tolerances, tolerance_range);
-  visit("energy_changes", config.energy_changes, tolerance_range);
-  visit("difference_steps", config.difference_steps, tolerance_range);
-  visit("shifts", config.shifts, tolerance_range);
-  visit("subspaces", config.subspaces, subspace_range);
-  visit("pairs", config.pairs, Range{1, 1e5});
-  visit("repetitions", config.repetitions, few_range);
-  visit("max_evaluations", config.max_evaluations, evaluation_range);
-  visit("rule_evaluations", config.rule_evaluations, evaluation_range);
-  visit("point_seconds", config.point_seconds, second_range);
-  visit("total_seconds", config.total_seconds, second_range);
-}
-
-void read_keys(const JsonPlace& root, ChartConfig& config) {
-  std::vector<std::string_view> keys{"$schema"};
-  visit_chart(config, [&](std::string_view key, const auto&, const Range&) { keys.push_back(key); });
-  root.expect_keys(keys);
-  root.read_if_any("$schema", [](const JsonPlace& place) { place.text(); });
-  visit_chart(config, [&](const std::string& key, auto& value, const Range& range) {
-    root.read_if_any(key, [&](const JsonPlace& place) { read_option(place, range, value); });
-  });
-}
 
 /// Reports an error if the cell would be too small at the highest density that the compression may reach.
 void check_particles(const JsonPlace& root, const ChartConfig& config, SolidKind solid) {
@@ -66,6 +23,49 @@ void check_particles(const JsonPlace& root, const ChartConfig& config, SolidKind
 }
 
 }  // namespace
+
+void describe(Fields& field, ChartConfig& config) {
+  constexpr Range few{1, 1000}, distances{1e-3, 0.2}, tolerances{0, 1, true}, evaluations{10, 1e7},
+      seconds{0, 1e6, true};
+  field.type("", "Methods to compare, their parameters, and time limits.");
+  const auto number = [&](const char* key, auto& value, const Range& range, const char* meaning) -> FieldEntry& {
+    return field(key, value, meaning).range(range).finite().optional();
+  };
+  const auto list = [&](const char* key, auto& values, const Range& range, const char* meaning) {
+    number(key, values, range, meaning).length(1).distinct();
+  };
+  field
+      .custom("$schema",
+              {[] { return Json(); }, [](const JsonPlace& place) { place.text(); }, {{"type", "string"}}, "text"},
+              "Path or address of this schema. Editors use it to check the configuration.")
+      .optional();
+  list("compare", config.compare, {}, "Comparisons to make, in this order.");
+  list("solids", config.solids, {}, "Solids of every comparison.");
+  number("seed", config.seed, count_range, "Seed of the packings.");
+  number("particles", config.particles, {8, 2000}, "Number of particles per packing.");
+  number("packings", config.packings, few, "Number of packings per solid.");
+  list("distances", config.distances, distances, "Distances to jamming Δφ of the equilibria to be found.");
+  number("fit_window", config.fit_window, distances,
+         "Distance to jamming Δφ below which states are used to fit the jamming density of each minimiser.");
+  list("tolerances", config.tolerances, tolerances, "Residuals requested of every minimiser.");
+  list("energy_changes", config.energy_changes, tolerances,
+       "Relative energy changes at which conjugate gradients stop under the paper's stopping rule.");
+  list("difference_steps", config.difference_steps, tolerances, "Steps of the central differences.");
+  list("shifts", config.shifts, tolerances,
+       "Negative shifts of the shift-invert method, divided by the largest eigenvalue.");
+  list("subspaces", config.subspaces, {60, 1000}, "Dimensions of the Krylov spaces.");
+  number("pairs", config.pairs, {1, 1e5}, "Number of pairs for each solid and contact class.");
+  number("repetitions", config.repetitions, few,
+         "Number of repetitions of each timing. Work longer than a tenth of a second is timed once.");
+  number("max_evaluations", config.max_evaluations, evaluations,
+         "Largest number of evaluations in one minimisation that does not use the paper's stopping rule.");
+  number("rule_evaluations", config.rule_evaluations, evaluations,
+         "Largest number of evaluations in one minimisation that uses the paper's stopping rule.");
+  number("point_seconds", config.point_seconds, seconds, "Largest wall-clock time of one minimisation.").unit("s");
+  number("total_seconds", config.total_seconds, seconds,
+         "Wall-clock time after which the chart is written, even if measurements are missing.")
+      .unit("s");
+}
 
 ChartConfig full_chart_config() {
   ChartConfig config;
@@ -91,17 +91,11 @@ ChartConfig parse_chart_config(std::string_view text, const std::string& file) {
   Problems problems;
   const JsonPlace root(document, file, "", &problems);
   ChartConfig config;
-  root.attempt([&] { read_keys(root, config); });
+  root.attempt([&] { read_into(root, config); });
   problems.refuse_any(document);
   for (const SolidKind solid : config.solids) check_particles(root, config, solid);
   problems.refuse_any(document);
   return config;
-}
-
-Json to_json(const ChartConfig& config) {
-  Json json = Json::object();
-  visit_chart(config, [&](const std::string& key, const auto& value, const Range&) { json[key] = option_json(value); });
-  return json;
 }
 
 }  // namespace isojam

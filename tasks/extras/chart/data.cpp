@@ -7,11 +7,6 @@
 namespace isojam {
 namespace {
 
-Json to_json(const std::optional<Spread>& spread) {
-  if (!spread) return nullptr;
-  return {{"median", spread->median}, {"least", spread->least}, {"greatest", spread->greatest}, {"n", spread->n}};
-}
-
 bool usable(const ChartPoint& point) { return !point.failed && point.seconds && point.error; }
 
 /// True if the point is on the Pareto front of its case: no other point is better in time or error and not worse in the
@@ -26,46 +21,93 @@ bool on_front(std::span<const ChartPoint> points, const ChartPoint& point) {
   return usable(point) && std::none_of(points.begin(), points.end(), is_beaten_by);
 }
 
-Json to_json(const ChartPoint& point, bool is_on_front) {
-  return {{"case", point.task},
-          {"method", point.method},
-          {"setting", point.setting},
-          {"seconds", to_json(point.seconds)},
-          {"error", to_json(point.error)},
-          {"stopped", point.stopped},
-          {"failed", point.failed},
-          {"on_front", is_on_front},
-          {"further", point.further}};
+void describe_program(Fields& field, ChartData& data) {
+  field("version", data.version, "Version of isojam.");
+  field("git", data.git, "Commit of the sources.");
+  field("compiler", data.compiler, "Name and version of the compiler.");
 }
 
-Json to_json(const ChartFamily& family) {
-  Json points = Json::array();
-  for (const ChartPoint& point : family.points) points.push_back(to_json(point, on_front(family.points, point)));
-  return {{"name", family.name},
-          {"error_is", family.error_is},
-          {"note", family.note},
-          {"ended", to_string(family.ended)},
-          {"points", std::move(points)}};
-}
-
-Json to_json(const AtlasRow& row) {
-  return {{"regime", row.regime},
-          {"setting", row.setting},
-          {"method", row.method},
-          {"standard", row.standard},
-          {"verdict", to_string(row.verdict)},
-          {"figure", row.figure},
-          {"reason", row.reason}};
-}
-
-Json to_json(const std::optional<ChartAtlas>& atlas) {
-  if (!atlas) return nullptr;
-  Json rows = Json::array();
-  for (const AtlasRow& row : atlas->rows) rows.push_back(to_json(row));
-  return {{"ended", to_string(atlas->ended)}, {"rows", std::move(rows)}};
-}
+constexpr const char* meaning_of_ended =
+    "Reason why the part is incomplete. `cut`: The time limit was reached before the last measurement. `interrupted`: "
+    "A signal stopped the program.";
 
 }  // namespace
+
+void describe(Fields& field, Spread& spread) {
+  field.type("spread", "Median and range of n values.");
+  field("median", spread.median, "Median.").range(not_negative).finite();
+  field("least", spread.least, "Smallest value.").range(not_negative).finite();
+  field("greatest", spread.greatest, "Largest value.").range(not_negative).finite();
+  field("n", spread.n, "Number of values.").range({1, count_range.high});
+}
+
+void describe(Fields& field, ChartPoint& point) {
+  field.type("point", "Cost and error of one method with one setting.");
+  field("case", point.task, "Computed case.");
+  field("method", point.method, "Method.");
+  field("setting", point.setting, "Parameter of the method.");
+  field("seconds", point.seconds, "CPU time of one thread; absent if it was not measured.").unit("s");
+  field("error", point.error, "Error as the family defines it; absent if there is no result.");
+  field("stopped", point.stopped, "Reason why the computation ended, with counts if there are several reasons.");
+  field("failed", point.failed, "True if the computation did not reach the requested result.");
+  field("on_front", point.on_front, "True if no other point of the same case has both less time and less error.");
+  field.custom("further",
+               {[&point] { return point.further; },
+                nullptr,
+                {{"type", "object"}, {"additionalProperties", {{"type", {"number", "null"}}}}},
+                "object of numbers"},
+               "Other numbers by name; null if a number is not defined.");
+}
+
+void describe(Fields& field, ChartFamily& family) {
+  field("name", family.name, "Name of the comparison.");
+  field("error_is", family.error_is, "Definition of the error.");
+  field("note", family.note, "Description of the measurement.");
+  field("ended", family.ended, meaning_of_ended);
+  field("points", family.points, "One point for each case, method and setting.");
+}
+
+void describe(Fields& field, AtlasRow& row) {
+  field.type("cell", "One method in a regime of known difficulty, at one severity.");
+  field("regime", row.regime, "Difficulty of the regime.");
+  field("setting", row.setting, "Severity of the difficulty.");
+  field("method", row.method, "Method.");
+  field("standard", row.standard, "True if isojam uses this method in this regime.");
+  field("verdict", row.verdict,
+        "Result of the method. `holds`: It gives a correct result. `refuses`: It gives no result, but states the "
+        "reason. `fails`: It gives a wrong result, or ends without a result.");
+  field("figure", row.figure, "Measured value.");
+  field("reason", row.reason, "Reason for the verdict.");
+}
+
+void describe(Fields& field, ChartAtlas& atlas) {
+  field("ended", atlas.ended, meaning_of_ended);
+  field("rows", atlas.rows, "One row for each method at each severity.");
+}
+
+void describe(Fields& field, ChartData& data) {
+  field("schema", data.schema, "Name and version of the file format.");
+  field.nested(
+      "program", [&data](Fields& inner) { describe_program(inner, data); }, "The build of isojam.");
+  field("threads", data.threads, "Number of threads. Times are CPU seconds of one thread.");
+  field("config", data.config, "Complete configuration.");
+  field("families", data.result.families, "Families of points with the same definition of time and error.");
+  field("atlas", data.result.atlas, "Stability atlas; absent unless it was requested.");
+  const auto costs = [&data] {
+    Json json = Json::object();
+    for (const PartCost& cost : data.result.costs) json[cost.part] = cost.cpu_seconds;
+    return json;
+  };
+  field
+      .custom("cpu_seconds",
+              {costs,
+               nullptr,
+               {{"type", "object"}, {"additionalProperties", {{"type", "number"}, {"minimum", 0}}}},
+               "object of numbers"},
+              "CPU time of each part of the chart, including computations that are not measured.")
+      .unit("s");
+  field("conclusion", data.conclusion, "The conclusion in whole sentences.").length(1);
+}
 
 std::span<const ChartPoint> points_of(std::span<const ChartFamily> families, std::string_view name) {
   for (const ChartFamily& family : families) {
@@ -75,21 +117,18 @@ std::span<const ChartPoint> points_of(std::span<const ChartFamily> families, std
 }
 
 Json chart_data(const ChartConfig& config, const ChartResult& result) {
-  Json all = Json::array();
-  for (const ChartFamily& family : result.families) all.push_back(to_json(family));
-  Json lines = Json::array();
-  for (const auto& line : conclusion(points_of(result.families, "equilibrium"), points_of(result.families, "bias")))
-    lines.push_back(line);
-  Json costs = Json::object();
-  for (const PartCost& cost : result.costs) costs[cost.part] = cost.cpu_seconds;
-  return {{"schema", "isojam.chart.v2"},
-          {"program", {{"version", version()}, {"git", git_hash()}, {"compiler", compiler()}}},
-          {"threads", 1},
-          {"config", isojam::to_json(config)},
-          {"families", std::move(all)},
-          {"atlas", to_json(result.atlas)},
-          {"cpu_seconds", std::move(costs)},
-          {"conclusion", std::move(lines)}};
+  ChartData data{"isojam.chart.v3",
+                 std::string(version()),
+                 std::string(git_hash()),
+                 std::string(compiler()),
+                 1,
+                 config,
+                 result,
+                 conclusion(points_of(result.families, "equilibrium"), points_of(result.families, "bias"))};
+  for (ChartFamily& family : data.result.families) {
+    for (ChartPoint& point : family.points) point.on_front = on_front(family.points, point);
+  }
+  return written(data);
 }
 
 }  // namespace isojam

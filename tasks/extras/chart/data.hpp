@@ -10,8 +10,17 @@
 
 namespace isojam {
 
-/// The content of data.json (schemas/chart_data.schema.json), which the page of the chart shows: the configuration, the
-/// build, the families of points with their Pareto fronts, the atlas, the costs of the parts, and the conclusion.
+/// The content of data.json, which the page of the chart shows.
+struct ChartData {
+  std::string schema, version, git, compiler;
+  int threads = 1;
+  ChartConfig config;
+  ChartResult result;
+  std::vector<std::string> conclusion;
+};
+void describe(Fields& field, ChartData& data);
+
+/// Makes the data with the build, the Pareto fronts of the families, and the conclusion.
 Json chart_data(const ChartConfig& config, const ChartResult& result);
 
 /// The points of the family with this name; empty if there is no such family.

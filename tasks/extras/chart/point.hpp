@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/names/enum_names.hpp"
-#include "tasks/io/json.hpp"
+#include "tasks/io/describe.hpp"
 
 namespace isojam {
 
@@ -35,6 +35,7 @@ struct ChartPoint {
   std::optional<Spread> error;    ///< error as defined by the family; nullopt if there is no result
   std::string stopped;            ///< reasons_text() of the reasons why the runs stopped
   bool failed = false;            ///< true if a run of the method did not reach the requested accuracy
+  bool on_front = false;          ///< set by chart_data()
   Json further = Json::object();  ///< other numbers, by name; null if a number is not defined
 };
 

@@ -1,6 +1,10 @@
 #include "tasks/extras/commands/pages.hpp"
 
+#include "tasks/commands/shared.hpp"
 #include "tasks/extras/commands/extra_commands.hpp"
+#ifdef ISOJAM_PAGES
+#include "tasks/extras/chart/data.hpp"
+#endif
 
 namespace isojam {
 namespace {
@@ -32,6 +36,10 @@ void add_report(CLI::App& app, Session& session) {
 }
 
 void add_chart(CLI::App& app, Session& session) {
+#ifdef ISOJAM_PAGES
+  documents().push_back({"chart", "Configuration of isojam chart", fields_of<ChartConfig>});
+  documents().push_back({"chart_data", "Data of isojam chart", fields_of<ChartData>});
+#endif
   ChartArguments* arguments = nullptr;
   auto options = add_command(app, session, "chart", "Compare methods on this machine: accuracy, speed and failures",
                              write_chart, arguments);

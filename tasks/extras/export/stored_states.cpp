@@ -7,6 +7,7 @@
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/place.hpp"
 #include "tasks/packings/packing_json.hpp"
+#include "tasks/records/state_file.hpp"
 #include "tasks/records/texts.hpp"
 
 namespace isojam {
@@ -15,12 +16,6 @@ namespace {
 
 std::string file_of(const fs::path& directory, const char* folder, const std::string& name) {
   return (directory / folder / (name + ".json")).string();
-}
-
-std::optional<double> distance_of(const JsonPlace& state) {
-  const auto place = state.at("delta_phi");
-  if (place.value().is_null()) return std::nullopt;
-  return place.number({-1, 1});
 }
 
 /// The exponents of a state that the record has under the measure `exponents`.
@@ -44,7 +39,7 @@ std::vector<StoredState> states_of_path(const fs::path& directory, const Recorde
   std::vector<StoredState> list;
   for (std::size_t k = 0; k < count; ++k) {
     const auto state = states.at(k);
-    list.push_back({k, distance_of(state), read_packing(state), exponents_of(held, k)});
+    list.push_back({k, read<PathState>(state).delta_phi.value, read_packing(state), exponents_of(held, k)});
     const auto &first = list.front().packing, &last = list.back().packing;
     if (!(last.solids == first.solids) || last.size() != first.size())
       state.refuse("the state has other particles than the first one");

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include "tasks/io/input_error.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
@@ -31,6 +33,56 @@ Json another_value(const Parameter& parameter) {
   if (usual.is_boolean()) return !usual.get<bool>();
   if (const auto* const choice = std::get_if<Choice>(&parameter.field.member)) return choice->names.back();
   return usual.is_number_integer() ? Json(usual.get<long>() + 1) : Json(usual.get<double>() / 2 + 1e-9);
+}
+
+/// Calls `work` with each number that has a range, also inside objects and lists.
+void for_each_range(const Fields& fields, const std::function<void(const FieldEntry&)>& work) {
+  for (FieldEntry field : fields.list) {
+    while (std::holds_alternative<Maybe>(field.member) || std::holds_alternative<Many>(field.member)) {
+      const MemberRef outer = field.member;
+      const auto* const maybe = std::get_if<Maybe>(&outer);
+      field.member = maybe ? maybe->example() : std::get<Many>(outer).example();
+    }
+    if (const auto* const object = std::get_if<Nested>(&field.member)) {
+      Fields below;
+      object->describe(below);
+      for_each_range(below, work);
+    }
+    const bool number = std::holds_alternative<double*>(field.member) || std::holds_alternative<Integer>(field.member);
+    if (number && field.allowed) work(field);
+  }
+}
+
+bool accepts(const FieldEntry& field, double x) {
+  const bool whole = std::holds_alternative<Integer>(field.member);
+  const Json value = whole ? Json(static_cast<std::int64_t>(x)) : Json(x);
+  try {
+    read_into(JsonPlace(value, "m.json"), field);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+TEST(Manifest, RangesIncludeTheirEndsAndNothingBeyond) {
+  int checked = 0;
+  for_each_range(fields_of<Manifest>(), [&](FieldEntry field) {
+    // The references are to objects that others use too.
+    double number = 0;
+    const bool whole = std::holds_alternative<Integer>(field.member);
+    if (whole) std::get<Integer>(field.member).set = [](std::int64_t) {};
+    if (!whole) field.member = &number;
+    const auto& [low, high, low_excluded, high_excluded] = *field.allowed;
+    for (const auto& [end, outwards, excluded] : {std::tuple(low, -1.0, low_excluded), {high, 1.0, high_excluded}}) {
+      if (std::abs(end) >= count_range.high) continue;
+      const auto beside = [whole](double x, double way) { return whole ? x + way : std::nextafter(x, way * 1e300); };
+      EXPECT_EQ(accepts(field, end), !excluded) << field.key << ' ' << end;
+      EXPECT_FALSE(accepts(field, beside(end, outwards))) << field.key << " beyond " << end;
+      EXPECT_TRUE(accepts(field, beside(end, -outwards))) << field.key << " inside " << end;
+      ++checked;
+    }
+  });
+  EXPECT_GT(checked, 60);
 }
 
 TEST(Manifest, RejectsInvalidManifests) {

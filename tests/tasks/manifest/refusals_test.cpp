@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 
@@ -83,41 +82,6 @@ TEST(Refusals, ConsequencesOfOtherErrorsAreNotReported) {
   EXPECT_EQ(pointers(goal.dump()), Lines{"/measure/0"}) << "whether it is measured is not known yet";
   goal["measure"] = {"order"};
   EXPECT_EQ(pointers(goal.dump()), Lines{"/replicates/quantity"});
-}
-
-std::string top_key(const test::BadManifest& bad) { return bad.pointer.substr(0, bad.pointer.find('/', 1)); }
-
-TEST(Refusals, TwoErrorsGiveTheLinesOfEach) {
-  std::vector<test::BadManifest> single;
-  for (const auto& bad : test::bad_manifests()) {
-    if (bad.schema_can_tell && !bad.pointer.empty()) single.push_back(bad);
-  }
-  int pairs = 0;
-  for (const auto& a : single) {
-    for (const auto& b : single) {
-      if (top_key(a) >= top_key(b)) continue;
-      auto expected = refusals(a.text);
-      const auto others = refusals(b.text);
-      // If a misspelt key is suggested to be the required key, the required key is not reported as missing.
-      if (expected.front().find("did you mean \"" + b.pointer.substr(1) + '"') != std::string::npos) continue;
-      expected.insert(expected.end(), others.begin(), others.end());
-      const auto good = good_manifest();
-      auto both = good.patch(Json::diff(good, Json::parse(a.text)));
-      both = both.patch(Json::diff(good, Json::parse(b.text)));
-      auto said = refusals(both.dump());
-      // One error makes a key swept, the other one sets it too: this is an additional error.
-      const bool third = std::any_of(said.begin(), said.end(), [](const std::string& line) {
-        return line.find("is also swept") != std::string::npos;
-      });
-      if (third) continue;
-      std::sort(expected.begin(), expected.end());
-      std::sort(said.begin(), said.end());
-      EXPECT_EQ(said, expected) << a.name << " and " << b.name << ": " << both.dump();
-      ++pairs;
-    }
-  }
-  std::printf("%d pairs of errors\n", pairs);
-  EXPECT_GT(pairs, 500);
 }
 
 TEST(Refusals, ConditionsBetweenValuesNeedValidValues) {

@@ -166,7 +166,7 @@ TEST_F(Adding, LeavesAValidDirectory) {
   }
   for (const auto& name : names()) {
     const auto path = read_sealed((here_ / "few" / "paths" / (name + ".json")).string());
-    EXPECT_EQ(test::violations("packing", path), "") << name;
+    EXPECT_EQ(test::violations("path", path), "") << name;
   }
   const auto exported = isojam({"export", "few", "all", "--format", "contacts", "--path"}, here_.path());
   EXPECT_EQ(exported.exit_code, 0) << exported.err;

@@ -45,7 +45,6 @@ std::vector<BadManifest> malformed() {
       set("another, swept", "/sweep/event_resolution", {0, 0.02}, "the key was removed; use a smaller"),
       set("another, of the minimiser", "/minimiser/history", 20, "the key was removed; delete it"),
       set("removed method", "/minimiser/method", "fire", "expected one of \"multipliers\", \"newton\", \"lbfgs\""),
-      set("name is a number", "/name", 4, "4 is not accepted"),
       set("name leaves the directory", "/name", "../x", "letters, digits"),
       set("name is empty", "/name", "", "letters, digits"),
       set("name is too long", "/name", std::string(65, 'a'), "letters, digits"),
@@ -53,10 +52,6 @@ std::vector<BadManifest> malformed() {
       {"no seed", without("seed"), "/seed", "missing", true},
       {"no sweep", without("sweep"), "/sweep", "missing", true},
       {"no replicates", without("replicates"), "/replicates", "missing", true},
-      set("seed is negative", "/seed", -1, "an integer from 0 to 9007199254740992"),
-      set("seed is a fraction", "/seed", 1.5, "an integer from 0"),
-      set("seed is a string", "/seed", "7", "\"7\" is not accepted"),
-      set("seed is null", "/seed", nullptr, "null is not accepted"),
       set("seed is beyond 2^53", "/seed", 9007199254740994, "is not accepted"),
       set("seed is beyond 2^64", "/seed", 1e30, "an integer from 0"),
       set("no replicate", "/replicates", 0, "an integer from 1 to 1000000"),
@@ -72,24 +67,10 @@ std::vector<BadManifest> malformed() {
       {"a goal of no width", with("/replicates", {{"min", 2}, {"max", 4}, {"quantity", "Z"}, {"half_width", 0}}),
        "/replicates/half_width", "a number in (0", true},
       set("half a replicate", "/replicates", 2.5, "an integer from 1"),
-      set("protocol is a string", "/protocol", "paper", "an object"),
-      set("negative density", "/protocol/initial_density", -0.1, "a number in (0, 1]"),
-      set("open end of a range", "/protocol/step_fraction", 1.0, "a number in (0, 1)"),
-      set("huge number", "/protocol/max_steps", 1e300, "an integer from 1 to 1000000"),
-      set("number for a truth value", "/protocol/target_before_relaxation", 1, "true or false"),
       set("misspelt method", "/minimiser/method", "lbgfs", "did you mean \"lbfgs\"?"),
-      set("method is a number", "/minimiser/method", 3, "\"multipliers\", \"newton\""),
       set("misspelt control", "/protocol/control", "preasure", "did you mean \"pressure\"?"),
-      set("a cell of no kind", "/protocol/cell", "cubic", "\"isotropic\", \"free\""),
       set("misspelt measure", "/measure", {"contact"}, "did you mean \"contacts\"?", "/measure/0"),
-      set("measure is no list", "/measure", "contacts", "a list"),
-      set("misspelt flag", "/exclude", {"cristalline"}, "did you mean \"crystalline\"?", "/exclude/0"),
-      set("flags are no list", "/exclude", "crystalline", "a list"),
-      set("a flag given twice", "/exclude", {"not_stable", "not_stable"}, "given twice", "/exclude/1"),
-      set("no modes", "/modes", 0, "0 is not accepted"),
-      set("modes are no number", "/modes", "all", "integer"),
       set("measure given twice", "/measure", {"contacts", "contacts"}, "given twice", "/measure/1"),
-      set("$schema is a number", "/$schema", 7, "a string"),
       {"root is a list", "[1]", "", "an object with the keys", true},
   };
 }
@@ -111,11 +92,8 @@ std::vector<BadManifest> malformed_base() {
 /// Shears that a schema rejects.
 std::vector<BadManifest> malformed_shear() {
   return {
-      set("shear that is no object", "/shear", "pure", "an object"),
       set("misspelt key of shear", "/shear", {{"stp", 0.1}}, "did you mean \"step\"?", "/shear/stp"),
       set("shear of no kind", "/shear", {{"mode", "torsion"}}, "\"pure\", \"simple\"", "/shear/mode"),
-      set("shear without a step", "/shear", {{"step", 0}}, "a number in (0, 1]", "/shear/step"),
-      set("shear back and forth", "/shear", {{"back", 3}}, "true or false", "/shear/back"),
   };
 }
 
@@ -130,10 +108,7 @@ std::vector<BadManifest> wrong_cohesion() {
   const Json hexagonal{{"solid", {"prism6"}}, {"particles", {200}}};
   const Json goal{{"min", 8}, {"max", 9}, {"quantity", "phi_j"}, {"half_width", 1}};
   return {
-      set("cohesion that is no object", "/protocol/cohesion", 1e-4, "an object"),
       set("misspelt key of cohesion", "/protocol/cohesion/strenght", 1e-4, "did you mean \"strength\"?"),
-      set("negative cohesion", "/protocol/cohesion/strength", -1e-4, "a number in [0, 1]"),
-      set("cohesion without a range", "/protocol/cohesion/range", 0, "a number in (0, 1]"),
       set("cohesion until nothing", "/protocol/cohesion/until", "jamming", "\"decompression\", \"end\""),
       set("swept key of cohesion without its object", "/sweep/strength", {1e-4}, "unknown key"),
       {"cohesion of solids that cannot grow", cohesive("/sweep", hexagonal), "/sweep/solid/0",
@@ -156,21 +131,15 @@ std::vector<BadManifest> malformed_sweep() {
       set("solid whose name is none", "/sweep/solid", {"8-hedron"}, "unknown solid", "/sweep/solid/0"),
       set("solid defined in no way", "/solids", {{"a", {{"ball", 1}}}}, "unknown key", "/solids/a/ball"),
       set("box without a height", "/solids", {{"a", {{"box", {1, 2}}}}}, "a list of 3", "/solids/a/box"),
-      set("box of no height", "/solids", {{"a", {{"box", {1, 2, 0}}}}}, "a number in (0", "/solids/a/box/2"),
       set("solid is a number", "/sweep/solid", {8}, "\"tetrahedron\", \"cube\"", "/sweep/solid/0"),
       set("solid is no list", "/sweep/solid", "cube", "a list"),
       set("no solid", "/sweep/solid", Json::array(), "the list is empty"),
       set("solid given twice", "/sweep/solid", {"cube", "cube"}, "given twice", "/sweep/solid/1"),
       set("particles given twice", "/sweep/particles", {64, 32, 64}, "given twice", "/sweep/particles/2"),
       set("no particles", "/sweep/particles", Json::array(), "the list is empty"),
-      set("zero particles", "/sweep/particles", {64, 0}, "an integer from 1 to 100000", "/sweep/particles/1"),
       set("a fraction of a particle", "/sweep/particles", {64.5}, "an integer", "/sweep/particles/0"),
-      set("too many particles", "/sweep/particles", {1000000}, "an integer from 1 to 100000", "/sweep/particles/0"),
-      set("swept value out of range", "/sweep/target_energy", {1e-5, 0.0}, "(0, 1]", "/sweep/target_energy/1"),
-      set("swept value of the wrong type", "/sweep/target_energy", {"x"}, "(0, 1]", "/sweep/target_energy/0"),
       set("swept value given twice", "/sweep/target_energy", {1e-5, 0.00001}, "twice", "/sweep/target_energy/1"),
       set("swept list is empty", "/sweep/method", Json::array(), "a list of 1 or more"),
-      set("swept method misspelt", "/sweep/method", {"lbgfs"}, "did you mean \"lbfgs\"?", "/sweep/method/0"),
       set("sweep is a list", "/sweep", Json::array(), "an object"),
   };
 }

@@ -1,10 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <filesystem>
 #include <limits>
 
-#include "tasks/io/atomic_file.hpp"
 #include "tasks/io/file.hpp"
 #include "tasks/io/parse.hpp"
 #include "tasks/io/sealed.hpp"
@@ -22,19 +21,16 @@ namespace {
 
 using test::violations;
 
-TEST(ManifestSchema, IsThatOfTheDescription) {
-  const auto made = schema_of(fields_of<Manifest>(), "isojam manifest");
-  if (std::getenv("ISOJAM_WRITE_SCHEMAS"))
-    write_atomically(fmt::format("{}/schemas/manifest.schema.json", ISOJAM_SOURCE_DIR), pretty(made));
-  EXPECT_EQ(test::schema("manifest"), made) << "ISOJAM_WRITE_SCHEMAS=1 makes the file again";
-}
-
-TEST(Schemas, NameEveryFlag) {
-  const Json flags = all_names<Flag>;
-  const std::vector<std::pair<std::string, std::string>> places{
-      {"manifest", "exclude"}, {"tables", "exclude"}, {"record", "flags"}};
-  for (const auto& [name, key] : places)
-    EXPECT_EQ(test::schema(name).at("properties").at(key).at("items").at("enum"), flags) << name;
+TEST(Schemas, AreThoseOfTheProgram) {
+  int checked = 0;
+  for (const auto& file : std::filesystem::directory_iterator(ISOJAM_SOURCE_DIR "/schemas")) {
+    const auto name = file.path().stem().stem().string();
+    const auto made = test::isojam({"schema", name}, ISOJAM_SOURCE_DIR);
+    if (name.starts_with("chart") && made.exit_code != 0) continue;  // a build without pages does not know it
+    EXPECT_EQ(made.out, read_file(file.path())) << name << ": make schemas";
+    ++checked;
+  }
+  EXPECT_GE(checked, 5);
 }
 
 TEST(ManifestSchema, AcceptsWhatTheProgramAccepts) {
@@ -127,22 +123,8 @@ TEST(RecordSchema, AcceptsRecords) {
   for (const auto& record : records) EXPECT_EQ(violations("record", record), "") << record.dump(1);
 }
 
-TEST(RecordSchema, RejectsDamagedRecords) {
-  const auto record = made_up_records().front();
-  for (const auto& item : record.items()) {
-    auto damaged = record;
-    damaged.erase(item.key());
-    // The first is added when the file is written, the second is absent if the replicate failed.
-    const bool can_be_absent = item.key() == "checksum" || item.key() == "rearrangements";
-    EXPECT_EQ(violations("record", damaged).empty(), can_be_absent) << "without " << item.key();
-  }
-  for (const std::string pointer :
-       {"/status", "/phi_j/phi_j", "/states/0/density", "/path/0/stage", "/timing/wall_seconds"}) {
-    auto damaged = record;
-    damaged[Json::json_pointer(pointer)] = "x";
-    EXPECT_NE(violations("record", damaged), "") << pointer;
-  }
-  auto both = record;
+TEST(RecordSchema, ADoneReplicateHasNoFailure) {
+  auto both = made_up_records().front();
   both["failure"] = {{"where", "jam"}, {"why", "because"}};
   EXPECT_THROW(summarise_record(both, "record"), InputError);
 }
@@ -176,10 +158,6 @@ TEST(RecordSchema, FailedRecordsHaveReasonsInPlaceOfResults) {
   auto both = failed;
   both.erase("failure");
   EXPECT_THROW(summarise_record(both, "made up"), InputError);
-}
-
-TEST(RecordSchema, IsGenerated) {
-  EXPECT_EQ(pretty(schema_of(fields_of<Record>(), "isojam record")), pretty(test::schema("record"))) << "make schemas";
 }
 
 TEST(RecordSchema, StatesHowOftenThePackingRearranged) {
@@ -216,13 +194,6 @@ TEST(RecordSchema, StatesHowOftenThePackingRearranged) {
   earlier.erase("rearrangements");
   EXPECT_EQ(violations("record", earlier), "");
   EXPECT_FALSE(summarise_record(earlier, "earlier").values[*quantity_index("rearrangements")]);
-}
-
-TEST(TableSchema, IsGeneratedAndNamesEveryQuantity) {
-  const auto schema = test::schema("tables");
-  EXPECT_EQ(pretty(schema_of(fields_of<Table>(), "isojam tables")), pretty(schema)) << "make schemas";
-  const auto& row = schema.at("properties").at("rows").at("items").at("properties");
-  for (const auto& quantity : all_quantities()) EXPECT_TRUE(row.contains(quantity.name)) << quantity.name;
 }
 
 TEST(TableSchema, AcceptsTables) {

@@ -252,7 +252,7 @@ TEST_F(ExportCommandTest, DamagedFilesAreRejected) {
   path.erase("checksum");
   RandomStream random({3});
   auto other = to_json(random_packing(platonic(SolidKind::cube), 70, 0.3, random));
-  other["delta_phi"] = nullptr;
+  other["delta_phi"] = 0.1;
   path["states"].push_back(other);
   test::write_text(path_file(names_[0]), sealed(path));
   before_ = files_below(directory_.path());
