@@ -83,7 +83,7 @@ void move_definitions(Json& schema, Json& definitions) {
 
 /// The value that an optional field has if a file lacks it. null if the field is an object or a file cannot state it.
 Json initial_value(const FieldEntry& field) {
-  if (field.presence != Presence::optional || std::holds_alternative<Nested>(field.member)) return nullptr;
+  if (field.presence != Presence::optional || std::holds_alternative<Nested>(core_of(field).member)) return nullptr;
   auto value = written(field);
   if (value.is_number() && field.allowed && !field.allowed->contains(value.get<double>())) return nullptr;
   return value;
