@@ -87,7 +87,7 @@ run: build
 # The studies of examples/paper, examples/rigidity and examples/percolation; then the page, its tables and its figures
 # from their results. An interrupted call is resumed. A replicate that failed (exit 1) is counted on the page.
 PAPER = n100 n400 n400-tetrahedra n4000 unstable emergence protocol
-RIGIDITY = n50 n64 n200 n800 solids
+RIGIDITY = n50 n64 n200 n800 solids constraints constraints-tetrahedra
 PERCOLATION = kept100 removed100 tetrahedra kept200 removed200 cycles range cubes kept400 tetrahedra400
 # Measures that an interrupted call left come first, because `run` would compute the whole replicate again.
 studies = @for study in $(1); do \

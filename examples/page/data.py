@@ -15,7 +15,8 @@ PLURALS = {solid: solid.replace("hedron", "hedra") for solid in SOLIDS}
 PROTOCOL = "paper-protocol"  # the study whose replicates have other compression protocols
 # Studies of one question each. Means over Platonic solids do not use them.
 NEGATIVE, EMERGENCE, SOLIDS_64, LARGE = "paper-unstable", "paper-emergence", "rigidity-solids", "paper-4000"
-APART = (PROTOCOL, NEGATIVE, EMERGENCE, SOLIDS_64, LARGE)
+CONSTRAINTS = ("rigidity-constraints", "rigidity-constraints-tetrahedra")
+APART = (PROTOCOL, NEGATIVE, EMERGENCE, SOLIDS_64, LARGE, *CONSTRAINTS)
 CHOICES = (1, 2, 4)  # factors of the fit window of φ_J, whose effect is the systematic error of exponents
 
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy
 
-from data import EMERGENCE, LARGE, NEGATIVE, SOLIDS_64
+from data import CONSTRAINTS, EMERGENCE, LARGE, NEGATIVE, SOLIDS_64
 from records import bin_of, cells_of, found, nearest_of, records_of, write
 
 # Column of a state: where it is in the record.
@@ -41,6 +41,11 @@ COLUMNS = {
     **{f"unstable_{name}": f"difference_modes/{name}/share" for name in ("exact", "h4", "h6", "h8")},
     "held_by_second": "prestress/modes/held_by_second", "C_s": "prestress/C_s",
     **{f"prestress_{t}": f"prestress/modes/prestress_by_threshold/{i}/modes" for i, t in ((1, 3), (2, 10), (3, 30))},
+    **{f"{name}_x{end}": f"exponents/{key}{end}" for name, key in (("C", "C"), ("m", "missing"))
+       for end in ("", "_low", "_high")},
+    **{f"{name}_x": f"exponents/{name}" for name in ("Z_ff", "Z_ef", "Z_l", "between")},
+    "self_stress_x": "exponents/rank/self_stress", "m_supported": "exponents/supported/missing",
+    "underconstrained": "exponents/supported/removed",
     **{f"{key}_{name}": f"prestress/by_class/{i}/{full}" for i, name in enumerate(("ff", "ef", "l"))
        for key, full in (("contacts", "contacts"), ("tilts", "stiff_tilts"))}}
 FITS = {"cut_ff": "contacts/face_face_fit", "cut_ef": "contacts/edge_face_fit"}
@@ -50,7 +55,8 @@ HISTOGRAMS_AT = (0.0025, 0.001)  # Δφ of histograms beside those of the tables
 SPECTRUM_AT = 0.01  # Δφ of the spectra, the same for all solids
 BALANCED = 1e-3  # largest residual of a backbone whose ranks are used: the removed particles carry no force
 STRUCTURE_FROM, SHELLS = 400, 40  # smallest N, and largest n² of the wave vectors 2π n/L, of structure factors
-NEAREST_ONLY = (LARGE, NEGATIVE, EMERGENCE, SOLIDS_64)  # studies of which pages use only the states nearest jamming
+# Studies of which pages use only the states nearest jamming.
+NEAREST_ONLY = (LARGE, NEGATIVE, EMERGENCE, SOLIDS_64, *CONSTRAINTS)
 EMERGENCE_AT = (0.32, 0.24, 0.16, 0.12, 0.08, 0.04)  # Δφ
 NEAR = 1.25  # factor between two values of Δφ that count as the same
 

@@ -2,6 +2,7 @@
 
 #include "tasks/io/version.hpp"
 #include "tasks/measure/rearrangements.hpp"
+#include "tasks/records/state_file.hpp"
 
 namespace isojam {
 namespace {

@@ -20,7 +20,8 @@ PAPER = {("tetrahedron", 100): 0.629, ("tetrahedron", 400): 0.634, ("octahedron"
          ("octahedron", 400): 0.686, ("icosahedron", 100): 0.6953, ("icosahedron", 400): 0.7008,
          ("dodecahedron", 100): 0.7065, ("dodecahedron", 400): 0.7085}
 ISOSTATIC = r"(C of ([a-z, ]+?) (is above|is below|agrees with) 12 − 4/N[^.]*\.)"
-APART = ("paper-unstable", "paper-emergence", "rigidity-solids", "paper-4000")  # studies that the abstracts do not use
+APART = ("paper-unstable", "paper-emergence", "rigidity-solids", "paper-4000", "rigidity-constraints",
+         "rigidity-constraints-tetrahedra")  # studies that the abstracts do not use
 
 
 def from_files(files):
