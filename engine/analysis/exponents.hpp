@@ -50,11 +50,11 @@ struct ExponentOptions {
 };
 
 /// Computes the exponents of the contacts of `packing`, which must be an equilibrium, from one small step at fixed cell
-/// shape. Steps of decreasing length are tried, each as a decompression and as a compression, until one succeeds without
-/// a change of contacts. Steps in which the packing loses energy are not used, because they contain a rearrangement. If
-/// all other steps change contacts, x comes from the last of them. `contacts` are the contacts of the packing in
-/// double-double, as PackingEnergy::contacts() returns them. A step takes less time than a step of the decompression,
-/// because it is much shorter.
+/// shape. Steps of decreasing length are tried, each as a decompression and as a compression, until one succeeds
+/// without a change of contacts. Steps in which the packing loses energy are not used, because they contain a
+/// rearrangement. If all other steps change contacts, x comes from the last of them. `contacts` are the contacts of the
+/// packing in double-double, as PackingEnergy::contacts() returns them. A step takes less time than a step of the
+/// decompression, because it is much shorter.
 ContactExponents contact_exponents(const Packing& packing, std::span<const Contact> contacts, PackingEnergy& energy,
                                    const ExponentOptions& options = {});
 

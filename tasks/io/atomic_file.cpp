@@ -12,7 +12,6 @@
 #include <optional>
 #include <random>
 #include <system_error>
-#include <thread>
 
 #include "tasks/io/file.hpp"
 
@@ -32,52 +31,6 @@ fs::path temporary_path_for(const fs::path& path) {
 
 /// True if this error means that the file system does not have the system call or its flag.
 bool is_unsupported(int error) { return error == EINVAL || error == ENOTSUP || error == ENOSYS || error == EPERM; }
-
-#ifndef RENAME_NOREPLACE  // as on macOS
-constexpr unsigned RENAME_NOREPLACE = 1;
-int renameat2(int, const char*, int, const char*, unsigned) { return errno = ENOTSUP, -1; }
-#endif
-
-bool is_there(const fs::path& path) {
-  struct stat status {};
-  return ::lstat(path.c_str(), &status) == 0;
-}
-
-/// The right of one process at a time to create `path`. It is a file beside `path`, which the destructor removes.
-class Claim {
- public:
-  /// Waits while another process has the claim. Takes no claim if `path` exists.
-  explicit Claim(const fs::path& path)
-      : claim_(path.parent_path() / fmt::format(".{}.claim.tmp", path.filename().string())) {
-    constexpr int most_trials = 300;
-    constexpr auto between_trials = std::chrono::milliseconds(10);
-    for (int trial = 0; trial < most_trials; ++trial) {
-      if (is_there(path)) return;
-      if (Descriptor(claim_, O_WRONLY | O_CREAT | O_EXCL).valid()) {
-        // Another process may have created the path before this one took the claim.
-        taken_ = !is_there(path);
-        if (!taken_) ::unlink(claim_.c_str());
-        return;
-      }
-      if (errno != EEXIST) throw FileError::of_errno(path, cannot_be_written);
-      std::this_thread::sleep_for(between_trials);
-    }
-    throw FileError(fmt::format("{}: another process is creating this file; if no such process exists, remove {}",
-                                path.string(), claim_.string()),
-                    FileError::Reason::resource_failure);
-  }
-  ~Claim() {
-    if (taken_) ::unlink(claim_.c_str());
-  }
-  Claim(const Claim&) = delete;
-  Claim& operator=(const Claim&) = delete;
-
-  bool taken() const { return taken_; }
-
- private:
-  fs::path claim_;
-  bool taken_ = false;
-};
 
 /// A new file in the folder of `path`. The destructor removes it unless it has replaced `path`.
 class Temporary {
@@ -104,19 +57,6 @@ class Temporary {
     if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw FileError::of_errno(path_, cannot_be_written);
     renamed_ = true;
   }
-  /// Returns false if the path exists. On a file system without hard links, a rename that does not replace is used. On
-  /// a file system without either, a claim allows one process at a time to rename.
-  bool link() {
-    if (::link(temporary_.c_str(), path_.c_str()) == 0) return true;
-    if (errno == EEXIST) return false;
-    renamed_ = renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_NOREPLACE) == 0;
-    if (renamed_ || errno == EEXIST) return renamed_;
-    if (!is_unsupported(errno)) throw FileError::of_errno(path_, cannot_be_written);
-    const Claim claim(path_);
-    if (claim.taken()) rename();
-    return renamed_;
-  }
-
  private:
   fs::path path_, temporary_;
   Descriptor file_;
@@ -183,16 +123,6 @@ void write_atomically(const fs::path& path, std::string_view content, Durability
   file.write(content, durability);
   file.rename();
   if (durability == Durability::synced) sync_directory_of(path);
-}
-
-bool write_exclusively(const fs::path& path, std::string_view content) {
-  {
-    Temporary file(path);
-    file.write(content, Durability::synced);
-    if (!file.link()) return false;
-  }
-  sync_directory_of(path);
-  return true;
 }
 
 struct OutputWriter::Target {

@@ -22,10 +22,6 @@ enum class Durability : std::uint8_t {
 void write_atomically(const std::filesystem::path& path, std::string_view content,
                       Durability durability = Durability::synced);
 
-/// Writes a file atomically, but only if the path does not exist. Otherwise it changes nothing and returns false. If
-/// several processes call it for the same path at the same time, exactly one call succeeds. Throws FileError.
-bool write_exclusively(const std::filesystem::path& path, std::string_view content);
-
 /// Writes a file that the user named on the command line. The write is atomic. Unlike write_atomically(), the function
 /// follows symbolic links, keeps the mode of an existing file, and its owner if the system permits this. It writes into
 /// a pipe or device instead of replacing it. Throws FileError.

@@ -14,7 +14,8 @@ namespace {
 // Classifies contacts by their exponents x, which needs no cut-off angle, and counts the constraints that are missing.
 
 constexpr QuantityGroup group{
-    "constraints", "Contacts and constraints of the state nearest jamming, with classes from the exponents of contacts."};
+    "constraints",
+    "Contacts and constraints of the state nearest jamming, with classes from the exponents of contacts."};
 
 /// The particles that remain if underconstrained particles are removed, repeatedly, until there are none.
 struct Supported {
@@ -34,9 +35,10 @@ struct Exponents {
 
 void describe(Fields& field, Supported& supported) {
   field("removed", supported.removed, "Number of underconstrained particles that were removed.")
-      .column({"underconstrained", group, "n_u",
-               "Number of particles that are underconstrained: their own constraints do not suppress their six motions "
-               "even while all other particles are fixed. Those that become so by the removal of others are included."});
+      .column(
+          {"underconstrained", group, "n_u",
+           "Number of particles that are underconstrained: their own constraints do not suppress their six motions "
+           "even while all other particles are fixed. Those that become so by the removal of others are included."});
   field("C", supported.C, "Constraint number of the remaining particles.")
       .unit("per particle")
       .column({"C_supported", group, "C^{su}", "Constraint number C without underconstrained particles."});
@@ -95,9 +97,10 @@ struct State {
   std::optional<Exponents> exponents;
 };
 void describe(Fields& field, State& state) {
-  field("exponents", state.exponents,
-        "Classes of the contacts from their exponents. Unless `exponents_of_all_states` is true, only the state nearest "
-        "jamming has this field.");
+  field(
+      "exponents", state.exponents,
+      "Classes of the contacts from their exponents. Unless `exponents_of_all_states` is true, only the state nearest "
+      "jamming has this field.");
 }
 
 double per_particle(long count, int particles) { return 2 * static_cast<double>(count) / particles; }
@@ -112,8 +115,8 @@ struct Followed {
   ClassifiedContacts classified;
   ContactExponents exponents;
 
-  /// The faces and edges of a contact are parallel only to within angles ~ Δφ^(5/3) (theory.md), so that singular values
-  /// of this size are not resolved.
+  /// The faces and edges of a contact are parallel only to within angles ~ Δφ^(5/3) (theory.md), so that singular
+  /// values of this size are not resolved.
   RigidityOptions accuracy() const { return {.least_tolerance = nearest::pow(exponents.distance, 5. / 3)}; }
 
   std::vector<ContactClass> classes(const ExponentBoundaries& boundaries = {}) const {
@@ -177,9 +180,9 @@ void add_classes(Exponents& record, const Packing& packing, const Followed& foll
 }
 
 void add_nothing(Exponents& record, std::string_view why) {
-  for (auto* value : {&record.Z_ff, &record.Z_ef, &record.Z_l, &record.C, &record.C_low, &record.C_high,
-                      &record.missing, &record.missing_low, &record.missing_high, &record.between, &record.supported.C,
-                      &record.supported.missing})
+  for (auto* value :
+       {&record.Z_ff, &record.Z_ef, &record.Z_l, &record.C, &record.C_low, &record.C_high, &record.missing,
+        &record.missing_low, &record.missing_high, &record.between, &record.supported.C, &record.supported.missing})
     value->reason = why;
   record.rank = no_rank(why);
   record.supported.self_stress.reason = record.supported.removed.reason = why;

@@ -37,7 +37,7 @@ struct Quantity {
 inline constexpr QuantityGroup main_group{
     "jamming", "Density and contacts of the state nearest jamming, with cut-offs that are fitted to the angles."};
 inline constexpr QuantityGroup contact_group{
-    "other cut-offs", "The same contacts with other cut-offs: troughs of the angles, and fixed angles from 5° to 55°."};
+    "other cut-offs", "The same contacts with other cut-offs, for example fixed angles from 5° to 55°."};
 
 /// All quantities, in the order of tables: φ_J, then the quantities of each measure, then those of rearrangements. All
 /// quantities of a group are together. If several measures have quantities in a group, the group is at the position of

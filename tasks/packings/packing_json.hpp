@@ -29,9 +29,9 @@ struct StoredSolid {
 };
 void describe(Fields& field, StoredSolid& solid);
 
-/// A packing in a file: its solids and sizes, the density, the cell, and the position and the quaternion (w, x, y, z) of
-/// each particle. Each coordinate is stored in double-double; with only the first doubles, a state near jamming would
-/// have a residual of about 1e-8.
+/// A packing in a file: its solids and sizes, the density, the cell, and the position and the quaternion (w, x, y, z)
+/// of each particle. Each coordinate is stored in double-double; with only the first doubles, a state near jamming
+/// would have a residual of about 1e-8.
 struct StoredPacking {
   StoredSolid solid;  ///< without values in a mixture
   std::optional<std::vector<StoredSolid>> kinds;
@@ -50,8 +50,8 @@ StoredPacking stored(const Packing& packing);
 Json to_json(const Packing& packing);
 
 /// Reads a packing with all bits of the original. The object may have other keys. Throws InputError if lists have
-/// different lengths, if a number is not allowed, if the squared length of a quaternion is at most 0.5, or if a particle
-/// could touch two images of another one in the cell.
+/// different lengths, if a number is not allowed, if the squared length of a quaternion is at most 0.5, or if a
+/// particle could touch two images of another one in the cell.
 Packing read_packing(const JsonPlace& place);
 
 }  // namespace isojam

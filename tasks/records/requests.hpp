@@ -22,8 +22,8 @@ using Warn = std::function<void(const std::string&)>;
 /// The plans of the manifests that were run in a directory, the last one first. Empty if the directory has no manifest.
 using Requests = std::vector<Plan>;
 
-/// Reads the manifests of a directory. Warns about a damaged manifest in manifests/, and skips it. Throws the exceptions
-/// of stored_manifest().
+/// Reads the manifests of a directory. Warns about a damaged manifest in manifests/, and skips it. Throws the
+/// exceptions of stored_manifest().
 Requests requests_in(const std::filesystem::path& directory, const Warn& warn);
 
 /// The specification that the last manifest with this sweep point gives to a replicate; nullopt if no manifest has the

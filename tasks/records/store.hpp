@@ -16,12 +16,12 @@
 
 namespace isojam {
 
-/// Checks whether the replicates of this manifest may be computed in a directory. It only reads files. Throws InputError
-/// if a replicate is recorded there with another specification, unless it failed: such a replicate is computed again.
-/// Damaged records are ignored: a record of the plan will be recomputed, and for others for_each_record() gives a
-/// warning. Throws FileError if a file cannot be read at the moment, or if one of the folders is a symbolic link,
-/// because results would then be written to another directory. `checked` are manifests for which the function does not
-/// read the records again.
+/// Checks whether the replicates of this manifest may be computed in a directory. It only reads files. Throws
+/// InputError if a replicate is recorded there with another specification, unless it failed: such a replicate is
+/// computed again. Damaged records are ignored: a record of the plan will be recomputed, and for others
+/// for_each_record() gives a warning. Throws FileError if a file cannot be read at the moment, or if one of the folders
+/// is a symbolic link, because results would then be written to another directory. `checked` are manifests for which
+/// the function does not read the records again.
 void check_directory(const std::filesystem::path& directory, const Manifest& manifest, const Requests& checked = {});
 
 /// A results directory. It contains manifest.json, tables.json, the folder manifests/ (see requests.hpp), and the
@@ -48,8 +48,8 @@ class Store {
   /// - The packing of the replicate is damaged or missing.
   /// - The manifest keeps paths, and the path of the replicate is damaged or missing.
   ///
-  /// Throws InputError if a replicate that did not fail has another specification. Throws FileError if a file cannot be read at the
-  /// moment; such a file does not count as damaged.
+  /// Throws InputError if a replicate that did not fail has another specification. Throws FileError if a file cannot be
+  /// read at the moment; such a file does not count as damaged.
   std::optional<RecordSummary> recorded(const ReplicateSpec& spec) const;
   /// Adds the measures of a record, valid or not, to the specification from which its replicate is computed again.
   void keep_measures(ReplicateSpec& spec) const;

@@ -29,8 +29,8 @@ class Campaign {
   /// if there are no more rounds. With a goal, throws FileError if one of these records was removed or damaged.
   bool open_round();
   /// The next replicate of the round that has no valid record. It is locked, see Store::take(). Replicates that another
-  /// process computes come last: the function waits until they are recorded, or until that process has ended. nullopt if
-  /// the round has no more such replicates, or after a stop request.
+  /// process computes come last: the function waits until they are recorded, or until that process has ended. nullopt
+  /// if the round has no more such replicates, or after a stop request.
   std::optional<ReplicateSpec> next(const std::stop_token& stop = {});
 
   struct Size {

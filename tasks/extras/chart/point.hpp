@@ -35,8 +35,8 @@ struct ChartPoint {
   std::optional<Spread> error;    ///< error as defined by the family; nullopt if there is no result
   std::string stopped;            ///< reasons_text() of the reasons why the runs stopped
   bool failed = false;            ///< true if a run of the method did not reach the requested accuracy
-  bool on_front = false;          ///< set by chart_data()
   Json further = Json::object();  ///< other numbers, by name; null if a number is not defined
+  bool on_front = false;          ///< set by chart_data()
 };
 
 /// Runs of several methods on the packings of one task.

@@ -43,12 +43,12 @@ std::vector<NetworkContact> contact_network(const Packing& packing, const Classi
 }
 
 const Columns& contact_columns() {
-  static const Columns columns{
-      "replicate",  "state",    "delta_phi", "a",          "b",          "image_x",    "image_y",    "image_z",
-      "volume",     "area",     "force_x",   "force_y",    "force_z",    "attack_x",   "attack_y",   "attack_z",
-      "normal_x",   "normal_y", "normal_z",  "torque_a_x", "torque_a_y", "torque_a_z", "torque_b_x", "torque_b_y",
-      "torque_b_z", "class",    "kind",      "theta_ef",   "theta_ff",   "depth",      "solid_a",    "solid_b",
-      "x"};
+  static const Columns columns{"replicate",  "state",      "delta_phi",  "a",          "b",          "image_x",
+                               "image_y",    "image_z",    "volume",     "area",       "force_x",    "force_y",
+                               "force_z",    "attack_x",   "attack_y",   "attack_z",   "normal_x",   "normal_y",
+                               "normal_z",   "torque_a_x", "torque_a_y", "torque_a_z", "torque_b_x", "torque_b_y",
+                               "torque_b_z", "class",      "kind",       "theta_ef",   "theta_ff",   "depth",
+                               "solid_a",    "solid_b",    "x"};
   return columns;
 }
 

@@ -25,8 +25,9 @@ std::vector<NetworkContact> contact_network(const Packing& packing, const Classi
 
 /// Columns of a table of contacts: replicate, state, Δφ, a, b, image, V, |S|, force on a, point of application, normal
 /// (points out of a), torques on a and b about their centres, class, kind, θ_ef and θ_ff (radians), depth, solids of a
-/// and b, and the exponent x, which is empty unless the record has the measure `exponents` of the state. `image` has three integers n_i: the centre of the touching image of b is x_b + Σ n_i·(lattice vector i). The
-/// class depends on the fitted cut-offs, and the kind on the shape of the intersection, see ContactKind.
+/// and b, and the exponent x, which is empty unless the record has the measure `exponents` of the state. `image` has
+/// three integers n_i: the centre of the touching image of b is x_b + Σ n_i·(lattice vector i). The class depends on
+/// the fitted cut-offs, and the kind on the shape of the intersection, see ContactKind.
 const Columns& contact_columns();
 /// The columns with texts.
 const Columns& contact_texts();

@@ -23,7 +23,8 @@ std::vector<std::optional<double>> exponents_of(const RecordedReplicate& held, s
   std::vector<std::optional<double>> list;
   const Json::json_pointer pointer(fmt::format("/states/{}/exponents/x", state));
   if (!held.record.contains(pointer)) return list;
-  for (const Json& x : held.record.at(pointer)) list.push_back(x.is_null() ? std::nullopt : std::optional(x.get<double>()));
+  for (const Json& x : held.record.at(pointer))
+    list.push_back(x.is_null() ? std::nullopt : std::optional(x.get<double>()));
   return list;
 }
 
@@ -55,8 +56,8 @@ std::vector<StoredState> stored_states(const fs::path& directory, const Recorded
   const JsonPlace packing(json, file_of(directory, "packings", held.name));
   std::vector<StoredState> one;
   const auto nearest = static_cast<std::size_t>(*held.document.nearest.value);
-  one.push_back({nearest, held.document.states[nearest].delta_phi.value, read_packing(packing),
-                 exponents_of(held, nearest)});
+  one.push_back(
+      {nearest, held.document.states[nearest].delta_phi.value, read_packing(packing), exponents_of(held, nearest)});
   return one;
 }
 

@@ -72,9 +72,9 @@ TEST(ContactExponents, OfATiltedEdgePassFromAVertexToAnEdge) {
   const Site face = constructed::face_site(solid, 0), edge = constructed::edge_site(solid, 0);
   const Vector3d normal = solid.faces()[0].normal;
   const auto& along = solid.edges()[0];
-  const double length = (solid.vertices()[static_cast<std::size_t>(along.head)] -
-                         solid.vertices()[static_cast<std::size_t>(along.tail)])
-                            .norm();
+  const double length =
+      (solid.vertices()[static_cast<std::size_t>(along.head)] - solid.vertices()[static_cast<std::size_t>(along.tail)])
+          .norm();
   constexpr double depth = 1e-6;
   double last = -1;
   for (const double ratio : {.001, .01, .1, .5, .9, 1.1, 1.5, 2., 5., 20., 100.}) {
@@ -84,11 +84,12 @@ TEST(ContactExponents, OfATiltedEdgePassFromAVertexToAnEdge) {
     double x = 0, volume = 0;
     for (int k = 0; k < 180; ++k) {
       const double angle = std::numbers::pi * k / 180;
-      const Vector3d axis = std::cos(angle) * normal.unitOrthogonal() +
-                            std::sin(angle) * normal.cross(normal.unitOrthogonal());
+      const Vector3d axis =
+          std::cos(angle) * normal.unitOrthogonal() + std::sin(angle) * normal.cross(normal.unitOrthogonal());
       const double middle = depth - alpha * length / 2;
       const auto at = [&](double change) {
-        return constructed::overlapped(solid, constructed::contact(face, edge, 0, alpha * axis, middle - change)).overlap;
+        return constructed::overlapped(solid, constructed::contact(face, edge, 0, alpha * axis, middle - change))
+            .overlap;
       };
       const Overlap from = at(0), to = at(.01 * depth);
       if (from.volume <= volume || to.volume <= 0) continue;

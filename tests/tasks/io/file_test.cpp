@@ -39,51 +39,6 @@ TEST(AtomicFile, AFailedWriteLeavesNothing) {
   EXPECT_TRUE(files_below(directory.path()).empty());
 }
 
-TEST(AtomicFile, OnlyOneOfSeveralWritersSucceeds) {
-  constexpr int rounds = 50, writers = 4;
-  for (int round = 0; round < rounds; ++round) {
-    const TemporaryDirectory directory;
-    std::vector<std::future<bool>> first;
-    for (int k = 0; k < writers; ++k) {
-      first.push_back(std::async(std::launch::async, [&directory, k] {
-        return write_exclusively(directory / "f.json", std::string(1000, static_cast<char>('a' + k)));
-      }));
-    }
-    int winners = 0;
-    char winner = 0;
-    for (int k = 0; k < writers; ++k) {
-      if (!first[static_cast<std::size_t>(k)].get()) continue;
-      ++winners;
-      winner = static_cast<char>('a' + k);
-    }
-    EXPECT_EQ(winners, 1) << "round " << round;
-    EXPECT_EQ(files_below(directory.path()),
-              (std::map<std::string, std::string>{{"f.json", std::string(1000, winner)}}));
-  }
-}
-
-TEST(AtomicFile, OnlyOneWriterSucceedsWithoutLinksAndExclusiveRenames) {
-  if (test::with_sanitizer) GTEST_SKIP() << "a sanitizer has the library's calls for itself";
-  const TemporaryDirectory directory;
-  const test::Failing failing("link 1+ 95;renameat2 1+ 22");
-  const auto self = fs::read_symlink("/proc/self/exe").string();
-  const auto ended = test::shell(self + " --gtest_filter=AtomicFile.OnlyOneOfSeveralWritersSucceeds", directory.path());
-  EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
-  EXPECT_NE(ended.out.find("[  PASSED  ] 1 test."), std::string::npos) << ended.out;
-}
-
-TEST(AtomicFile, AStaleClaimIsNamed) {
-  if (test::with_sanitizer) GTEST_SKIP() << "a sanitizer has the library's calls for itself";
-  const TemporaryDirectory directory;
-  test::write_text(directory / "m.json", test::tiny_manifest().dump());
-  fs::create_directory(directory / "results");
-  test::write_text(directory / "results/.manifest.json.claim.tmp", "");
-  const test::Failing failing("link 1+ 95;renameat2 1+ 22");
-  const auto ended = test::isojam({"run", "m.json", "-o", "results"}, directory.path());
-  EXPECT_EQ(ended.exit_code, 1) << ended.err;
-  EXPECT_NE(ended.err.find("remove results/.manifest.json.claim.tmp"), std::string::npos) << ended.err;
-}
-
 TEST(Output, RefusesALinkOfAnotherUserInASharedFolder) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can make a link of another user";
   const TemporaryDirectory directory;

@@ -236,7 +236,7 @@ TEST(Record, WhatATableNeedsIsRequired) {
   const auto record = make_record(test::made_up_outcome(plan()[0]));
   for (const std::string pointer :
        {"/schema", "/spec", "/spec/solid", "/spec/particles", "/spec/parameters", "/spec/replicate", "/spec/protocol",
-        "/provenance", "/provenance/spec_digest", "/status", "/timing", "/timing/cpu_seconds", "/result_digest",
+        "/provenance", "/status", "/timing", "/timing/cpu_seconds", "/result_digest",
         "/flags", "/phi_j", "/phi_j/phi_j", "/phi_j/residual", "/nearest"}) {
     auto damaged = record;
     const Json::json_pointer at(pointer);
