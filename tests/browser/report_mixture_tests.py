@@ -74,7 +74,7 @@ class MixtureTests:
 
     def test_legends_show_what_distinguishes_lines(self):
         self.open(self.pages.report(self.mixed()))
-        for chart, count in (("face-face", 3), ("edge-face", 3), ("shear", 2)):
+        for chart, count in (("face-face", 2), ("edge-face", 2), ("shear", 2)):
             dashes = [dash for dash in self.legend(chart, "stroke-dasharray") if dash is not None or chart == "shear"]
             self.assertGreaterEqual(len(set(dashes)), count, f"{chart}: {dashes}")
         drawn = self.browser.run("""

@@ -209,6 +209,7 @@ class Pages:
         packings of the real replicates."""
         directory = self.root / name
         shutil.copytree(source, directory, ignore=lambda folder, names: [entry for entry in names if "-r" in entry])
+        without_manifest(directory)
         numbers, points = random.Random(5), {}
         for path in sorted((source / "records").iterdir()):
             points.setdefault(path.stem.rpartition("-r")[0], []).append(path)
@@ -230,7 +231,7 @@ class Pages:
     def by_hand(self, name, source, solid, particles, density):
         """Results with one replicate: particles on a lattice with random orientations, and the states of a real
         replicate."""
-        directory = self.single(name, source)
+        directory = without_manifest(self.single(name, source))
         record = next((directory / "records").iterdir())
 
         def resize(document):
@@ -243,6 +244,13 @@ class Pages:
         made.update(lattice(particles, density), solid=solid)
         write_sealed(packing, made)
         return directory
+
+
+def without_manifest(directory):
+    """The directory after its manifests were removed, because they do not request the records that are made by hand."""
+    (directory / "manifest.json").unlink()
+    shutil.rmtree(directory / "manifests")
+    return directory
 
 
 def lattice(particles, density):
