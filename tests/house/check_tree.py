@@ -18,7 +18,7 @@ import re
 import subprocess
 import sys
 
-BUDGET = 107661
+BUDGET = 107768
 COUNTED = re.compile(r"(?!schemas/|.*/data/).*\.(cpp|hpp|h|py|js|css|sh|md|cmake|txt|in|json)")
 MAX_LINES = 400
 FOLDERS = "names arithmetic random parallel geometry packing solve analysis vibration shear rigidity".split()
