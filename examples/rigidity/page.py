@@ -9,6 +9,7 @@ sys.path.insert(0, str(HERE.parent / "page"))
 
 import pages  # noqa: E402
 import values  # noqa: E402
+import verdict  # noqa: E402
 from counting import EDGES, FAR, drawn_size, infinite, limit_at_jamming  # noqa: E402
 from data import SOLIDS, SOLIDS_64  # noqa: E402
 from tables import DISTANCES, TABLES, TILTS_AT, main_table, other_solids, tilts_table  # noqa: E402, F401
@@ -19,7 +20,7 @@ FILES = (HERE.parent / "paper/data/records.json", HERE / "data/records.json")
 ENTRIES = """An entry a ± b (n) is the mean a over n packings and half the width b of its 95 % confidence interval
 (Student t). A third number ± c is a systematic error, which the text defines. *Nearest* is the state nearest jamming of
 each packing. A dash means that the value is unknown."""
-BLOCKS = {"main": main_table, "tilts": tilts_table}
+BLOCKS = {"verdict": verdict.verdict_table, "main": main_table, "tilts": tilts_table}
 WITHOUT_TETRAHEDRA = SOLIDS[1:]
 
 
@@ -100,26 +101,20 @@ def farthest(data):
     return max(values.farthest(data, data.sizes(s)) for s in SOLIDS)
 
 
-def limit_errors(data, end):
-    errors = [limit["half_width"] for limit in limits_by_trough(data)]
-    return number(min(errors) if end == "least" else max(errors), 2)
-
-
 def missing_solids(data):
     return [s for s in other_solids(data) if len(data.kept_of(SOLIDS_64, s)) < 3]
 
 
 value_of = values.value_of({
-    **values.VALUES, "exponent": exponent_end, "among": among, "solids": solids_end, "limit_errors": limit_errors,
+    **values.VALUES, "exponent": exponent_end, "among": among, "solids": solids_end,
     "missing_normals": end_of(missing_by_normals, 1), "supported": lambda data: str(math.floor(100 * (1 - max(unsupported_modes(data)) / 6))),
-    "waves": end_of(wave_ratios, 1), "m_trough": lambda data, solid: number(
-        data.nearest(solid, 100, "missing_trough")["mean"], 2),
+    "waves": end_of(wave_ratios, 1), "verdict_size": lambda data: str(verdict.size(data)),
+    "verdict": lambda data, column, solid: number(verdict.mean(data, solid, verdict.size(data), column)["mean"], 2),
     "single_stress": single_stress,
     "C_s": lambda data, solid: interval(data.nearest(solid, 100, "C_s")),
     "farthest": lambda data: significant(farthest(data), 2),
     "size": lambda data: str(drawn_size(data)), "isostatic": lambda data: values.against_isostatic(
-        data, "trough", drawn_size(data)),
-    "drawn": lambda data, how, solid: values.constraints(data, how, solid, drawn_size(data))})
+        data, "trough", drawn_size(data))})
 
 
 def share_below(data, solid, column, distance, limit):
@@ -149,30 +144,25 @@ def identity_holds(data):
 
 # Sentences of README.md that follow from the data only as long as these functions are true.
 CLAIMS = {
-    "are rigid because contacts resist compression along their normals, and tilts of": lambda data: all(
-        data.nearest(s, 100, "missing_trough")["mean"] < 0.2 < 1 < data.nearest(s, 100, "missing_normals")["mean"]
-        for s in SOLIDS),
-    "normals alone do so in most modes only in tetrahedra,": lambda data: [
-        data.at(s, 100, "held_by_second_each", TILTS_AT)["mean"] < 3 for s in SOLIDS] == [True, False, False, False],
+    "Constraints are missing in packings of octahedra, icosahedra and dodecahedra, but not in packings of tetrahedra.":
+        lambda data: [verdict.misses(data, s) for s in SOLIDS] == [False, True, True, True],
     "For any classification, C = 12 − 6/N − 2m + 2S/N": identity_holds,
-    "Linear extrapolation to Δφ = 0 gives these C within errors of": lambda data: all(
-        abs(limit["mean"] - data.constraints(s, drawn_size(data), "trough")["mean"]) < limit["half_width"]
-        for s, limit in zip(SOLIDS, limits_by_trough(data))),
-    "tetrahedra have redundant constraints, and the others lack m =": lambda data: all(
-        (m := data.nearest(s, 100, "missing_trough"))["mean"] > m["half_width"] for s in SOLIDS[1:])
-        and data.nearest(SOLIDS[0], 100, "redundant_trough")["mean"] > 0.05,
-    "Fewer are missing in octahedra": lambda data: all(data.nearest(SOLIDS[1], n, "missing_trough")["mean"] < min(
-        data.nearest(s, n, "missing_trough")["mean"] for s in SOLIDS[2:]) for n in (100, 400)),
     "At this Δφ, C_s of icosahedra and dodecahedra agrees with 12 − 4/N, and C_s of octahedra and tetrahedra exceeds it.":
         lambda data: [
         abs((c := data.nearest_of(SOLIDS_64, s, "C_s"))["mean"] - (12 - 4 / 64)) < c["half_width"] for s in SOLIDS] == [
             False, False, True, True] and min(data.nearest_of(SOLIDS_64, s, "C_s")["mean"] for s in SOLIDS[:2]) > 12,
     "Nearer to jamming, C_s of icosahedra and dodecahedra is below 12 − 4/N": lambda data: all(
         (c := data.nearest(s, 100, "C_s"))["mean"] + c["half_width"] < 12 - 4 / 100 for s in SOLIDS[2:]),
-    "so that m decides": lambda data: int(single_stress(data, "one")) > 0.9 * int(single_stress(data, "all")),
+    "By exponents, S is 1 in every packing of octahedra, icosahedra and dodecahedra,": lambda data: all(
+        p["self_stress_x"] == 1 for s in WITHOUT_TETRAHEDRA for n in verdict.sizes(data, s)
+        for p in verdict.packings(data, s, n)),
+    "few missing constraints belong to underconstrained particles.": lambda data: all(
+        verdict.mean(data, s, verdict.size(data), "m_supported")["mean"]
+        > 0.7 * verdict.mean(data, s, verdict.size(data), "m_x")["mean"] for s in WITHOUT_TETRAHEDRA),
+    "so that m decides there too": lambda data: int(single_stress(data, "one")) > 0.9 * int(single_stress(data, "all")),
     "By fit, the limits of m for N → ∞ are compatible with zero in icosahedra and dodecahedra.": lambda data: all(
         m["mean"] < m["half_width"] for m in missing_limits(data)),
-    "The limits of icosahedra and dodecahedra use almost only states with Δφ < 0.001.": lambda data: all(
+    "the limits of icosahedra and dodecahedra use almost only states with Δφ < 0.001.": lambda data: all(
         share_below(data, s, "C_trough", 0.001, 0.01) > 0.8 for s in SOLIDS[2:]),
     "In no solid are the exponents of E and K constant: at the largest Δφ, both are smaller than nearer to jamming.":
         lambda data: all(decreasing(data, s, column) for s in SOLIDS for column in ("E", "K")),
@@ -194,9 +184,6 @@ CLAIMS = {
     "All packings of cubes and most packings of rhombic dodecahedra are crystals, and no packing of truncated cubes "
     "reached the target energy, so these three solids are missing": lambda data:
         set(missing_solids(data)) == {"cube", "truncated_cube", "rhombic_dodecahedron"},
-    "In icosahedra and dodecahedra, near-rattlers explain at most a part of the missing constraints by fit": lambda data: all(
-        data.at(s, 100, "backbone_m", TILTS_AT)["mean"] > 0.5 * data.at(s, 100, "missing", TILTS_AT)["mean"]
-        for s in SOLIDS[2:]),
 }
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import collections
 import math
 
+import verdict
 from counting import EDGES, WINDOWS, drawn_size, infinite, limit_at_jamming
 from data import APART, SOLIDS, SOLIDS_64
 from estimates import estimate_of
@@ -42,8 +43,6 @@ def main_table(data):
         ("C by fit", [data.constraints(s, size, "fit") for s in SOLIDS]),
         ("m by trough", [data.nearest(s, size, "missing_trough") for s in SOLIDS]),
         ("m by fit", [with_range(data, s, size, "missing") for s in SOLIDS]),
-        ("S/N by trough", [data.nearest(s, size, "redundant_trough") for s in SOLIDS]),
-        ("S/N by fit", [with_range(data, s, size, "redundant") for s in SOLIDS]),
         ("m by normals only", [data.nearest(s, size, "missing_normals") for s in SOLIDS]))])
 
 
@@ -53,8 +52,7 @@ def tilts_table(data):
             (f"{MODES} normals", "held_by_second_each"), (f"{MODES} normals and stiff tilts", "prestress_10_each"),
             ("modes per particle that cannot be distinguished from zero modes", "unresolved_each"),
             ("stiff tilts per face-face contact", "stiff_tilts_ff"),
-            ("stiff tilts per edge-face contact", "stiff_tilts_ef"), ("stiff tilts per other contact", "stiff_tilts_l"),
-            ("m by fit", "missing"), ("m by fit without near-rattlers", "backbone_m"))])
+            ("stiff tilts per edge-face contact", "stiff_tilts_ef"), ("stiff tilts per other contact", "stiff_tilts_l"))])
 
 
 def density_text(density, particles):
@@ -188,6 +186,7 @@ def cost(data):
 
 
 TABLES = (
+    ("Constraints by exponents", "The same as Table 1 of the page for each N.", verdict.by_size),
     ("Troughs in the densities of log θ", """Cut-offs and edges in radians, and the density at the cut-off per particle
      and decade. *Undecided* means that the density has no significant trough. *By fit* is log10 of the mean cut-off of the
      paper's fit, for comparison.""", troughs),
