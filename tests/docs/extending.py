@@ -19,7 +19,7 @@ QUANTITY = ("number", lambda record: record["states"][record["nearest"]]["cluste
 MEASURE = ("number", lambda record: record["states"][record["nearest"]]["rattlers"]["number"], "rattlers")
 PARAMETER = "failed_steps"
 MANIFEST = {"name": "extended", "sweep": {"solid": ["octahedron"], "particles": [64]}, "replicates": 1, "seed": 1,
-            "protocol": {PARAMETER: 3, "final_distance": 0.05}, "measure": ["contacts", "clusters", "rattlers"]}
+            "protocol": {PARAMETER: 3, "final_distance": 0.01}, "measure": ["contacts", "clusters", "rattlers"]}
 
 
 def run(*command, **options):
