@@ -18,7 +18,7 @@ struct Overloaded : Cases... {
 };
 template <class... Cases>
 decltype(auto) match(const MemberRef& member, Cases... cases) {
-  return std::visit(Overloaded{std::move(cases)...}, static_cast<const MemberRef::variant&>(member));
+  return std::visit(Overloaded<Cases...>{std::move(cases)...}, static_cast<const MemberRef::variant&>(member));
 }
 
 // ---- Writing --------------------------------------------------------------------------------------------------------

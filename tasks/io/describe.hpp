@@ -334,7 +334,7 @@ template <class List>
 Many list_of(List& member) {
   using T = typename List::value_type;
   Many many{[&member] { return member.size(); },
-            [&member](std::size_t size) {
+            [&](std::size_t size) {
               if constexpr (requires { member.resize(size); }) member.resize(size);
             },
             [&member](std::size_t k) { return ref_to(member[k]); }, example_of<T>};

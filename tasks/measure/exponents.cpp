@@ -155,9 +155,9 @@ void add_supported(Supported& record, const Packing& packing, const Followed& fo
 
 void add_classes(Exponents& record, const Packing& packing, const Followed& followed) {
   const int n = packing.size();
-  const auto& [contacts, alignments, analysis] = followed.classified;
+  const ClassifiedContacts& known = followed.classified;
   const auto rank = [&](std::span<const ContactClass> classes) {
-    return rank_of(class_constraints(packing, contacts, alignments, classes), followed.accuracy());
+    return rank_of(class_constraints(packing, known.contacts, known.alignments, classes), followed.accuracy());
   };
   const auto classes = followed.classes(), fewest = followed.classes(fewest_constraints),
              most = followed.classes(most_constraints);
