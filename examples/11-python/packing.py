@@ -1,14 +1,17 @@
-"""usage: /usr/bin/python3 packing.py DIR SOLID
+"""usage: /usr/bin/python3 packing.py DIR SOLID [--check PICTURE]
 
 Draws a packing of a results directory beside the energies that give φ_J, and writes packing.png. In the packing, the
 largest clusters of particles that face-face contacts connect have a colour each; all other particles are grey. The
-energies leave out the excluded replicates. Needs Debian's python3-matplotlib. The module isojam is in build/python."""
+energies leave out the excluded replicates. The picture contains a text with the numbers that it shows, and with
+--check, nothing is drawn: the text of PICTURE must be that of DIR. Needs Debian's python3-matplotlib. The module isojam
+is in build/python."""
 
 # %% Clusters: particles that face-face contacts connect
 import sys
 
 import matplotlib
 import numpy
+from PIL import Image
 
 import isojam
 
@@ -32,7 +35,7 @@ def clusters(count, pairs):
     return label
 
 
-# %% Packing: faces with a a light from the upper left
+# %% Packing: faces with a light from the upper left
 def draw_packing(axes, packing, label):
     sizes = numpy.bincount(label, minlength=len(packing))
     large = [k for k in numpy.argsort(-sizes, kind="stable") if sizes[k] > 1][:len(CLUSTERS)]
@@ -75,15 +78,27 @@ def draw_energies(axes, study):
     axes.legend(frameon=False)
 
 
+# %% The numbers that the figure shows
+def text_of(study, packing, label):
+    kept = study.replicates.kept
+    return (f"{packing.name}, clusters {sorted(numpy.bincount(label).tolist(), reverse=True)[:len(CLUSTERS)]}; phi_j "
+            + ", ".join(f"{name} {phi_j:.6f}" for name, phi_j in zip(kept["replicate"], kept["phi_j"])))
+
+
 # %% One figure of both
 if __name__ == "__main__":
     study = isojam.load(sys.argv[1])
     name = next(iter(study.replicates[study.replicates["solid"] == sys.argv[2]]["replicate"]))
     contacts = study.contacts(name)
     flat = contacts[contacts["class"] == "face_face"]
-    figure = pyplot.figure(figsize=(11, 5))
     packing = study.packing(name)
-    draw_packing(figure.add_axes((-0.04, -0.12, 0.56, 1.24), projection="3d"), packing,
-                 clusters(len(packing), zip(flat["a"], flat["b"])))
+    label = clusters(len(packing), zip(flat["a"], flat["b"]))
+    text = text_of(study, packing, label)
+    if "--check" in sys.argv:
+        drawn = Image.open(sys.argv[-1]).text.get("Description")
+        print(f"{sys.argv[-1]}: {drawn}")
+        sys.exit(0 if drawn == text else f"{sys.argv[1]} has: {text}; draw the picture again")
+    figure = pyplot.figure(figsize=(11, 5))
+    draw_packing(figure.add_axes((-0.04, -0.12, 0.56, 1.24), projection="3d"), packing, label)
     draw_energies(figure.add_axes((0.58, 0.13, 0.40, 0.82)), study)
-    figure.savefig("packing.png", dpi=110, metadata={"Software": None})
+    figure.savefig("packing.png", dpi=110, metadata={"Software": None, "Description": text})
