@@ -268,9 +268,12 @@ Cells notes_about(const Table& table) {
     return std::any_of(table.rows.begin(), table.rows.end(), [&](const Row& row) { return row.*count > 0; });
   };
   Cells notes;
-  if (any(&Row::excluded)) notes.emplace_back("all: means that include the excluded replicates");
+  if (any(&Row::excluded)) {
+    notes.emplace_back("excluded: replicates that the means leave out because of the flags above the table");
+    notes.emplace_back("all: means that include the excluded replicates");
+  }
   if (any(&Row::flagged))
-    notes.emplace_back("flagged: replicates with a warning, see \"isojam status DIR\" and docs/results.md");
+    notes.emplace_back("flagged: replicates with a warning (a flag), which \"isojam status DIR\" names");
   return notes;
 }
 

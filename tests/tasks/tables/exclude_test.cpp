@@ -142,7 +142,10 @@ TEST_F(ExcludeTest, EveryFormatHasBothAndStatesWhatIsExcluded) {
   EXPECT_EQ(text.find("excluded from means", told.size()), std::string::npos)
       << "once, above the first table: " << text;
   EXPECT_NE(text.find("\n  all "), std::string::npos) << text;
-  EXPECT_NE(text.find("\nall: means that include the excluded replicates\nflagged: "), std::string::npos) << text;
+  EXPECT_NE(text.find("\nexcluded: replicates that the means leave out because of the flags above the table\n"
+                      "all: means that include the excluded replicates\nflagged: replicates with a warning"),
+            std::string::npos)
+      << text;
   const auto latex = aggregate({"r", "--format", "latex"});
   EXPECT_EQ(latex.rfind("% " + told + "\n% jamming: ", 0), 0U) << latex;
   EXPECT_NE(latex.find("\\quad all "), std::string::npos) << latex;
