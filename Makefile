@@ -20,8 +20,7 @@ PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-d
                     nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev libjs-vega libjs-three
 LINT_PACKAGES    := clang-format clang-tidy
 LIBCXX_PACKAGES  := clang-19 libc++-19-dev libc++abi-19-dev
-# The tests lint two known-bad files, so they need the linters too.
-TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev python3 python3-gsd \
+TEST_PACKAGES    := $(PROGRAM_PACKAGES) libgtest-dev libvalijson-dev python3 python3-gsd \
                     python3-vtk9 python3-numpy python3-pandas python3-matplotlib python3-scipy python3-yaml groff-base \
                     zsh fish
 # Where there is no browser its tests say that they are skipped; everything else is tested.
@@ -323,8 +322,7 @@ clean:
 	  $(BUILD)-package $(BUILD)-fuzz $(BUILD)-lint $(BUILD)-trixie $(BUILD)-bookworm $(ARM64)
 
 # ---- Style ---------------------------------------------------------------------------------------------------
-# tests/house/bad holds files that must fail: the tests see to those.
-FILES   := $(shell find $(wildcard engine tasks tests) -path tests/house/bad -prune -o \( -name '*.cpp' -o -name '*.hpp' \) -print | sort)
+FILES   := $(shell find $(wildcard engine tasks tests) -name '*.cpp' -o -name '*.hpp' | sort)
 # Not ?=, for make has a LINT of its own; the command line wins over := as well.
 LINT    := $(filter %.cpp,$(FILES))
 EIGEN   ?= /usr/include/eigen3
@@ -335,7 +333,7 @@ CONFIGURE_LINT = $(subst -B $(BUILD),-B $(BUILD)-lint,$(CONFIGURE)) -DISOJAM_TES
 # In a directory of its own, where nothing is built: clang-tidy cannot read the headers that g++ precompiles, and so sees
 # that every source includes what it needs.
 lint:
-	$(call install,$(BENCH_PACKAGES) $(LIBCXX_PACKAGES))
+	$(call install,$(BENCH_PACKAGES) $(LINT_PACKAGES) $(LIBCXX_PACKAGES))
 	@clang-format --dry-run -Werror $(FILES)
 	$(CONFIGURE_LINT)
 	@$(MAKE) --no-print-directory -j $(JOBS) -O -k lint-sources

@@ -15,10 +15,7 @@ list(APPEND isojam_package_names
   chromedriver   chromium-driver       chromedriver       chromium            chromedriver-binary
   mkdocs         mkdocs                mkdocs             mkdocs              mkdocs
   vega           libjs-vega            vega               vega                vega
-  three          libjs-three           three              three               three
-  bash           bash                  bash               bash                bash
-  clang-format   clang-format          clang-tools-extra  clang               clang-format
-  clang-tidy     clang-tidy            clang-tools-extra  clang               clang-tools)
+  three          libjs-three           three              three               three)
 
 # isojam_layer(<out> <what is tested> <package>...): ON if found_<package> is true for all packages.
 function(isojam_layer out tested)
@@ -66,7 +63,7 @@ endfunction()
 
 # ---- Search --------------------------------------------------------------------------------------------------
 find_package(valijson QUIET)
-foreach(program bash clang-format clang-tidy chromium chromedriver mkdocs)
+foreach(program chromium chromedriver mkdocs)
   find_program(ISOJAM_TESTS_${program} ${program})
   set(found_${program} ${ISOJAM_TESTS_${program}})
 endforeach()
@@ -84,5 +81,4 @@ print(*filter(importlib.util.find_spec, sys.argv[1:]), sep=';', end='')"
     set(found_${module} ON)
   endforeach()
 endif()
-mark_as_advanced(ISOJAM_TESTS_bash ISOJAM_TESTS_clang-format ISOJAM_TESTS_clang-tidy ISOJAM_TESTS_chromium
-                 ISOJAM_TESTS_chromedriver ISOJAM_TESTS_mkdocs)
+mark_as_advanced(ISOJAM_TESTS_chromium ISOJAM_TESTS_chromedriver ISOJAM_TESTS_mkdocs)
