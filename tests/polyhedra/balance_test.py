@@ -11,7 +11,7 @@ import catalogue
 import study
 
 PROGRAM = sys.argv[1]
-NAMES = ("O04", "P05", "A03", "A01", "C01", "O15", "J09", "J27", "J18", "C04")
+NAMES = ("O04", "P05", "A03", "A01", "C01", "C09", "A08", "C12", "A05", "C04")
 #: Name, factor of the vertices, their origin, digits that are kept (17: all), value of `merge`.
 VARIANTS = (("as_computed", 1, 0, 17, None), ("at_1e4", 1, 1e4, 17, None), ("at_1e6", 1, 1e6, 17, None),
             ("at_1e8", 1, 1e8, 17, None), ("nanometres", 1e-9, 0, 17, None), ("large", 3e8, 0, 17, None),

@@ -1,4 +1,4 @@
-"""Tests the 145 polyhedra of catalogue.py. The published numbers of features are the reference."""
+"""Tests the 45 polyhedra of catalogue.py. The published numbers of features are the reference."""
 
 import itertools
 import sys
@@ -19,17 +19,13 @@ def spread(values):
     return values.max() - values.min()
 
 
-def lengths(name):
-    return [numpy.linalg.norm(SOLIDS[name][i] - SOLIDS[name][j]) for i, j in edges(FACES[name])]
-
-
 class Catalogue(unittest.TestCase):
     def small(self, value, name):
         self.assertLess(value, ROUNDING, name)
 
     def test_published_numbers(self):
         published = catalogue.published()
-        self.assertEqual(len(published), 145)
+        self.assertEqual(len(published), 45)
         self.assertEqual(list(published), list(SOLIDS))
         for name, (number, polygons) in published.items():
             loops = FACES[name]
@@ -49,15 +45,15 @@ class Catalogue(unittest.TestCase):
                 self.assertLess((others @ normal).max(), (vertices[loop] @ normal).min() - 1e-3, name)
 
     def test_regular_faces(self):
-        regular = [name for name in SOLIDS if name[0] in "PAJ" or name <= "O14" and name[0] == "O"]
-        self.assertEqual(len(regular), 5 + 13 + 92 + 14)
+        regular = [name for name in SOLIDS if name[0] in "PAO"]
+        self.assertEqual(len(regular), 5 + 13 + 14)
         for name in regular:
             self.small(irregularity(SOLIDS[name], FACES[name]), name)
 
     def test_spheres(self):
         for name, vertices in SOLIDS.items():
             centred = vertices - vertices.mean(axis=0)
-            if name[0] in "PA" or name == "O20":
+            if name[0] in "PA":
                 self.small(spread(numpy.linalg.norm(centred, axis=1)), name)
             if name[0] in "PC":
                 normals = numpy.array([normal_of(vertices, loop) for loop in FACES[name]])
@@ -66,12 +62,6 @@ class Catalogue(unittest.TestCase):
                 area = [numpy.cross(centred[loop], numpy.roll(centred[loop], -1, axis=0)).sum(axis=0) @ normal
                         for loop, normal in zip(FACES[name], normals)]
                 self.small(spread(area) / max(area), name)
-
-    def test_rhombic_solids(self):
-        for name in ("O16", "O17", "O18", "O19", "O21"):
-            self.small(max(abs(numpy.array(lengths(name)) - 1)), name)
-            images = 2 * SOLIDS[name].mean(axis=0) - SOLIDS[name]
-            self.small(max(numpy.linalg.norm(SOLIDS[name] - image, axis=1).min() for image in images), name)
 
     def test_no_two_are_similar(self):
         known = {}

@@ -1,8 +1,8 @@
-"""Jams each of 145 polyhedra, and compares the balance of the exported forces with the record.
+"""Jams each of 45 polyhedra, and compares the balance of the exported forces with the record.
 
 usage: jam_test.py ISOJAM [--all] [-o DIR]
 
-Without --all, a fixed sample of four solids; the whole set takes five minutes on 2 cores. N is 32, or the smallest of
+Without --all, a fixed sample of four solids; the whole set takes several minutes on 2 cores. N is 32, or the smallest of
 64, 128 and 256 for which the cell is longer than two diameters. Exits 1 if a replicate fails, or if the exported
 forces and the record disagree by more than a factor of 3. Prints a line for each solid."""
 

@@ -97,11 +97,6 @@ def irregularity(vertices, loops):
     return worst
 
 
-def is_regular_faced(vertices):
-    loops = faces(vertices)
-    return len({v for loop in loops for v in loop}) == len(vertices) and irregularity(vertices, loops) < NEAR
-
-
 # ---- Simple families ---------------------------------------------------------------------------------------------
 def polygon(n, turn=0, height=0):
     """A regular polygon with unit edges; its first vertex is at the angle `turn`, in units of half of its step."""
@@ -118,18 +113,6 @@ def antiprism(n):
     below, above = polygon(n), polygon(n, turn=1)
     across = numpy.linalg.norm(below[0] - above[0])
     return numpy.vstack([below, polygon(n, turn=1, height=numpy.sqrt(1 - across**2))])
-
-
-def pyramid(n):
-    base = polygon(n)
-    return numpy.vstack([base, [0, 0, numpy.sqrt(1 - base[0] @ base[0])]])
-
-
-def cupola(n):
-    """A polygon with n sides over one with 2n sides."""
-    base, top = polygon(2 * n, turn=1), polygon(n, turn=2)
-    across = min(numpy.linalg.norm(base - top[0], axis=1))
-    return numpy.vstack([base, top + [0, 0, numpy.sqrt(1 - across**2)]])
 
 
 # ---- Wythoff's construction --------------------------------------------------------------------------------------
@@ -194,73 +177,3 @@ def dual(vertices):
     normals = [normal_of(centred, loop) for loop in loops]
     polar = numpy.array([n / (centred[loop] @ n).mean() for n, loop in zip(normals, loops)])
     return polar / min(numpy.linalg.norm(polar[i] - polar[j]) for i, j in edges(faces(polar)))
-
-
-def frame(vertices, loop, first):
-    """Centre of a face, and its axes as columns: towards the corner `first`, across, outwards."""
-    centre, z = vertices[loop].mean(axis=0), normal_of(vertices, loop)
-    x = vertices[loop[first % len(loop)]] - centre
-    x /= numpy.linalg.norm(x)
-    return centre, numpy.column_stack([x, cross(z, x), z])
-
-
-def joined(vertices, loop, cap, base, turn):
-    """`cap` with its face `base` on the face `loop`, rotated by `turn` corners."""
-    centre, axes = frame(vertices, loop, turn)
-    below, foot = frame(cap, base, 0)
-    flip = numpy.diag([1.0, -1, -1])
-    placed = (cap - below) @ foot @ flip @ axes.T + centre
-    new = [p for p in placed if min(numpy.linalg.norm(vertices - p, axis=1)) > NEAR]
-    return numpy.vstack([vertices, new])
-
-
-def with_sides(loops, n):
-    return [loop for loop in loops if len(loop) == n]
-
-
-def augmented(vertices, loop, cap, accept=is_regular_faced):
-    """`cap` on a face, with the rotation that `accept` allows; by default all faces must be regular."""
-    base = with_sides(faces(cap), len(loop))[0]
-    for turn in range(2):
-        result = joined(vertices, loop, cap, base, turn)
-        if accept(result):
-            return result
-    raise ValueError("this cap does not fit on the face")
-
-
-def zonotope(generators):
-    """All sums of the generators with factors ±1/2 that are extreme in some direction."""
-    vertices = set()
-    for g, h in itertools.combinations(generators, 2):
-        normal = cross(g, h)
-        for s, t in itertools.product((1, -1), repeat=2):
-            # A small step from the normal gives a sign to the generators in the face, too.
-            step = numpy.linalg.solve([g, h, normal], [s, 0.7 * t, 0])
-            sign = numpy.sign(generators @ (normal + 1e-3 * step))
-            vertices |= {tuple(sign), tuple(-sign)}
-    return numpy.array(sorted(vertices)) @ generators / 2
-
-
-def unit_edges(start, tolerance=0.12):
-    """The polyhedron near `start` whose edges have length 1 and whose quadrilaterals are squares, by Newton's method.
-
-    Pairs of vertices at a distance of about 1 are edges. Two pairs at about the square root of 2 that are the diagonals
-    of a quadrilateral of edges make it a square."""
-    n = len(start)
-    near = {pair: numpy.linalg.norm(start[pair[0]] - start[pair[1]]) for pair in itertools.combinations(range(n), 2)}
-    wanted = {pair: 1 for pair, d in near.items() if abs(d - 1) < tolerance}
-    joined_to = [{j for pair in wanted for j in pair if i in pair and j != i} for i in range(n)]
-    across = [pair for pair, d in near.items() if abs(d - 2**0.5) < tolerance]
-    for p, q in itertools.combinations(across, 2):
-        if all(i in joined_to[j] for i in p for j in q):
-            wanted[p] = wanted[q] = 2
-    x = numpy.array(start, dtype=float)
-    for _ in range(30):
-        slope = numpy.zeros((len(wanted), n, 3))
-        miss = numpy.zeros(len(wanted))
-        for row, ((i, j), square) in enumerate(wanted.items()):
-            gap = x[i] - x[j]
-            miss[row] = gap @ gap - square
-            slope[row, i], slope[row, j] = 2 * gap, -2 * gap
-        x -= (numpy.linalg.pinv(slope.reshape(len(wanted), -1), rcond=1e-9) @ miss).reshape(n, 3)
-    return x

@@ -1,4 +1,4 @@
-"""Compares `isojam validate` with the published features of 145 polyhedra. usage: validate_test.py ISOJAM"""
+"""Compares `isojam validate` with the published features of 45 polyhedra. usage: validate_test.py ISOJAM"""
 
 import pathlib
 import sys
