@@ -40,7 +40,7 @@ def copied(source, folder):
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_bytes((source / name).read_bytes())
     for diff in diffs(source):
-        run("patch", "-p1", "--fuzz=1", cwd=folder, input=diff)
+        run("patch", "-p1", "--fuzz=0", cwd=folder, input=diff)
         print(re.findall(r"^\+\+\+ b/(\S+)", diff, re.MULTILINE))
 
 
@@ -52,7 +52,8 @@ def check(program, module, folder):
     schema = json.loads(run(program, "schema", "record"))
     manifest = json.loads(run(program, "schema", "manifest"))
     assert f'"{PARAMETER}"' in json.dumps(manifest) and PARAMETER in run(program, "fields", PARAMETER)
-    rows = list(csv.DictReader(io.StringIO(run(program, "export", folder / "results", "--format", "replicates"))))
+    table = run(program, "export", folder / "results", "all", "--format", "replicates")
+    rows = list(csv.DictReader(io.StringIO(table)))
     frame = json.loads(run(sys.executable, "-c", "import isojam, json, sys\nrow = isojam.load(sys.argv[1]).replicates"
                            ".iloc[0]\nprint(json.dumps({n: float(row[n]) for n in sys.argv[2:]}))", folder / "results",
                            QUANTITY[2], MEASURE[2], env={**os.environ, "PYTHONPATH": str(module)}))
