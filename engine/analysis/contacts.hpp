@@ -42,16 +42,15 @@ struct ShapePair {
 };
 
 /// Result of analyse_contacts(). If particles have several shapes, `pairs` contains the cut-offs of each pair of
-/// shapes, and the members of the base class summarise them. The critical angles are then the smallest of all pairs.
-/// Each fit is a copy from the least conclusive pair of shapes: a pair without a cut-off if there is one, otherwise a
-/// pair with a doubtful fit, otherwise any pair.
+/// shapes, and the members of the base class summarise them: the smallest critical angles of all pairs, and the fit of
+/// the least conclusive pair, which is one without a cut-off, otherwise one with a doubtful fit, otherwise any.
 struct ContactAnalysis : ClassCutoffs {
   std::vector<ShapePair> pairs;  ///< pairs of shapes that have contacts; empty if there is only one shape
   /// Number of packings whose angles were combined for the fits; 1 if the angles are those of this packing only.
   int pooled_over = 1;
   /// class of each contact from the fitted cut-offs, in the order of the contacts
   std::vector<ContactClass> classes;
-  ContactNumbers numbers;  ///< contact and constraint numbers from the fitted cut-offs
+  ContactNumbers numbers;        ///< contact and constraint numbers from the fitted cut-offs
   ContactNumbers fixed_cutoffs;  ///< result of fixed_cutoff_numbers()
   /// contact and constraint numbers for the particles of each kind of a mixture; empty if all particles are identical
   std::vector<ContactNumbers> of_kinds;
@@ -79,14 +78,14 @@ ContactAnalysis analyse_contacts(const Composition& solids, int particles, std::
 std::vector<ContactAnalysis> analyse_pooled(const ConvexSolid& solid, int particles,
                                             std::span<const std::vector<Alignment>> packings);
 
-/// Numbers with fixed cut-offs instead of fitted ones. For each of the cut-offs 5°, 15°, …, 55°, the numbers are
-/// computed with this cut-off for both angles. The result is the mean, as in column 2 of the paper's Table III.
+/// Numbers with fixed cut-offs instead of fitted ones: the mean over the cut-offs 5°, 15°, …, 55° for both angles, as
+/// in column 2 of the paper's Table III.
 ContactNumbers fixed_cutoff_numbers(int particles, std::span<const Alignment> alignments);
 
 /// Classes of the contacts for given cut-offs (radians).
 std::vector<ContactClass> classify(std::span<const Alignment> alignments, double ff_cutoff, double ef_cutoff);
-/// Contact and constraint numbers per particle for contacts of these classes. Each contact counts for both of its
-/// particles. Throws std::invalid_argument if particles < 1.
+/// Contact and constraint numbers per particle for contacts of these classes, such as Z = 2 × contacts / particles.
+/// Throws std::invalid_argument if particles < 1.
 ContactNumbers contact_numbers(int particles, std::span<const ContactClass> classes);
 
 }  // namespace isojam

@@ -2,13 +2,12 @@
 
 #include <cfloat>
 
-// The C library has two versions of each elementary function. One of them uses fused multiply-adds, and the library
-// selects the version for the processor at run time. The last bits of the two versions differ. With the C library,
-// the results of a replicate would therefore depend on the processor.
+// The C library has two versions of each elementary function, with and without fused multiply-adds, and selects one for
+// the processor at run time. Because their last bits differ, results with the C library depend on the processor.
 
-/// Elementary functions with the same bits on every processor. They are computed in software in quadruple precision,
-/// and rounded once to the nearest double. For infinities and NaN, the results are those of the standard library. Each
-/// call takes about a microsecond, so do not use these functions in innermost loops.
+/// Elementary functions with the same bits on every processor, because they are computed in software in quadruple
+/// precision, and rounded once to the nearest double. For infinities and NaN, the results are those of the standard
+/// library. Each call takes about a microsecond, which is too slow for innermost loops.
 namespace isojam::nearest {
 
 /// The functions of the standard library with the same names. @{

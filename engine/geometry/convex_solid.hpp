@@ -43,9 +43,9 @@ struct Edge {
 };
 
 /// An edge in the format that the contact loop needs. Each segment of the loop lies on a face i of solid A and a face j
-/// of solid B; this pair of faces has the number 32i + j. At a point where an edge leaves the other solid, one segment
-/// of the loop begins and another one ends. The record stores the numbers of the face pairs of both segments, with 0 in
-/// place of the face that the edge crosses.
+/// of solid B, a pair of faces with the number 32i + j. Where an edge leaves the other solid, one segment of the loop
+/// begins and another one ends; the record stores the numbers of the face pairs of both, with 0 in place of the face
+/// that the edge crosses.
 struct EdgeRecord {
   std::uint8_t tail, head, left, right;  ///< indices of the vertices and faces of the edge
   std::uint16_t tail_at, head_at;        ///< SolidArrays::at() of the two vertices
@@ -73,8 +73,8 @@ struct alignas(32) Parts {
 };
 
 /// A solid as arrays of numbers for the computation of overlaps. The arrays of vertices and of faces are filled up to a
-/// multiple of four elements: with copies of the first vertex, and with planes 0·y = far. Every point is on the inner
-/// side of such a plane.
+/// multiple of four elements, with copies of the first vertex, and with planes 0·y = far, which have every point on
+/// their inner side.
 struct SolidArrays {
   static constexpr int max_edges = 192;  ///< largest number of edges
   /// largest number of vertices, because at least three edges end at every vertex
@@ -92,8 +92,7 @@ struct SolidArrays {
   int vertices = 0, faces = 0, edges = 0;  ///< numbers of vertices, faces and edges
   std::vector<double> x, y, z;             ///< vertices
   std::vector<double> nx, ny, nz, offset;  ///< normals and offsets of the face planes
-  /// Rounding errors of the entries above. The exact value is the entry plus its rounding error, with an error of
-  /// 1e-32.
+  /// Rounding errors of the entries above: the sum of both is exact to 1e-32.
   std::vector<double> x_low, y_low, z_low;
   std::vector<double> nx_low, ny_low, nz_low, offset_low;  ///< rounding errors of the normals and offsets
   std::vector<EdgeRecord> record;                          ///< edges by index, in the format for the contact loop
@@ -120,20 +119,19 @@ struct SolidArrays {
   Quad plane_offset(int f) const { return widened({offset[f], offset_low[f]}); }
 };
 
-/// An immutable convex polyhedron with mass density 1, whose centroid is the origin. Its volume is 1 (V_p = 1) unless
-/// it was constructed with another scale. Lengths are in units of V_p^(1/3). The polyhedron has at most max_edges
-/// edges, and therefore at most max_vertices vertices and max_faces faces.
+/// An immutable convex polyhedron with mass density 1, whose centroid is the origin, and whose volume is 1 (V_p = 1)
+/// unless it was constructed with another scale. Lengths are in units of V_p^(1/3). It has at most max_edges edges, and
+/// therefore at most max_vertices vertices and max_faces faces.
 class ConvexSolid {
  public:
   static constexpr int max_edges = SolidArrays::max_edges;        ///< largest number of edges
   static constexpr int max_vertices = SolidArrays::max_vertices;  ///< largest number of vertices
   static constexpr int max_faces = SolidArrays::max_faces;        ///< largest number of faces
 
-  /// Makes the convex hull of `vertices`, moved so that its centroid is the origin and scaled to unit volume. Every
-  /// point of `vertices` must be a vertex of the hull. The vertices are moved by distances of the order of their
-  /// rounding errors, so that all faces are exactly planar. Throws NoSolid (hull.hpp), a std::invalid_argument, if a
-  /// point is not a vertex of the hull, if points coincide or span no volume, if a face cannot be made planar, or if
-  /// there are too many features.
+  /// Makes the convex hull of `vertices`, moved so that its centroid is the origin and scaled to unit volume. The
+  /// vertices are moved by distances of the order of their rounding errors, so that all faces are exactly planar.
+  /// Throws NoSolid (hull.hpp), a std::invalid_argument, if a point is not a vertex of the hull, if points coincide or
+  /// span no volume, if a face cannot be made planar, or if there are too many features.
   ConvexSolid(std::string name, std::span<const Eigen::Vector3d> vertices);
   /// Makes the convex hull of vertices in quadruple precision. All numbers of the solid are then rounded to the nearest
   /// double, and the stored rounding errors are correct to 1e-32.
@@ -158,16 +156,15 @@ class ConvexSolid {
   double diameter() const { return diameter_; }               ///< largest distance between two vertices
   /// Radius of gyration about an axis, R = sqrt(I/m), where I is the mean principal moment of inertia and m the mass.
   double gyration_radius() const { return gyration_radius_; }
-  /// Reference length of the solid at unit volume; it does not change with scale(). Parts of an overlap that are small
-  /// relative to this length are computed in double-double (overlap/small_distances.hpp). It is the inradius. For a
-  /// solid with more than narrow_edges edges, which may have very flat edges and blunt vertices, it is four
-  /// circumradii.
+  /// Length, independent of scale(), relative to which small parts of an overlap are computed in double-double
+  /// (overlap/small_distances.hpp): the inradius, or four circumradii for a solid with more than narrow_edges edges,
+  /// which may have very flat edges and blunt vertices.
   double fine_below() const { return fine_below_; }
   /// Inertia tensor about the centroid, ∫ (|x|² − x xᵀ) dV, in the body frame. For a spherical top it is m R² times the
   /// identity.
   const Eigen::Matrix3d& inertia() const { return inertia_; }
-  /// True if all principal moments of inertia are equal within rounding. This is the case for the Platonic solids, and
-  /// for all solids with the symmetry of a Platonic solid.
+  /// True if all principal moments of inertia are equal within rounding, as for all solids with the symmetry of a
+  /// Platonic solid.
   bool is_spherical_top() const { return is_spherical_top_; }
 
  private:

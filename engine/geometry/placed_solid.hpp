@@ -68,7 +68,7 @@ class PlacedSolid {
 };
 
 /// The placed solids of all particles of a packing. If a particle is placed again, its views stay valid and have the
-/// new values. resize() invalidates all views.
+/// new values, while resize() invalidates all views.
 class PlacedSolids {
  public:
   /// Allocates memory for `count` copies of a solid, and places none of them. Set `low` to true if they will be placed

@@ -32,11 +32,11 @@ struct DoubleDoubleMatrix {
 /// The product of two matrices. The error of each entry is at most 1e-30 × (largest entry of a) × (largest entry of b).
 DoubleDoubleMatrix operator*(const DoubleDoubleMatrix& a, const DoubleDoubleMatrix& b);
 
-/// Pose of a particle: the position x of its centre (V_p^(1/3)), and its orientation, a quaternion q. The rotation by q
-/// takes vectors from the body frame to the lab frame. Both are stored as sums of two doubles: x = position +
-/// position_low, and q = orientation + orientation_low. The first double is the double nearest to the sum. q may have
-/// any length except 0; the rotation is that of q/|q|. If you assign `position` or `orientation`, also assign the
-/// corresponding low part.
+/// Pose of a particle: the position x of its centre (V_p^(1/3)), and its orientation, a quaternion q that rotates
+/// vectors from the body frame to the lab frame. Both are stored as sums of two doubles, of which the first is the
+/// double nearest to the sum: x = position + position_low, and q = orientation + orientation_low. q may have any length
+/// except 0; the rotation is that of q/|q|. If you assign `position` or `orientation`, also assign the corresponding
+/// low part.
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< nearest doubles of the centre x, in units of V_p^(1/3)
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< nearest doubles of q
@@ -51,9 +51,9 @@ struct Pose {
   DoubleDouble component(int c) const { return {orientation.coeffs()[c], orientation_low[c]}; }
 };
 
-/// The pose after a motion in which the centre moves by dx and the orientation becomes exp(θ)·q; dx and θ are in the
-/// lab frame. The new |q| is 1 with an error of about 1e-31. Motions as small as 1e-25 still change the pose, because
-/// they change the second double of a number.
+/// The pose after a motion in which the centre moves by dx and the orientation becomes exp(θ)·q, with dx and θ in the
+/// lab frame. The new |q| is 1 with an error of about 1e-31. Even motions of 1e-25 change the pose, in the second
+/// double of a number.
 Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& theta);
 
 /// The same motion. v = sin(|θ|/2) θ/|θ| is the vector part of the unit quaternion of the rotation. Its scalar part is

@@ -16,13 +16,12 @@ struct EnumName {
   Enum value;             ///< the enumerator
   std::string_view name;  ///< its name
 };
-/// Clang before version 17 cannot deduce the template argument of an aggregate. clang-tidy 14 reads these headers, so
-/// it needs this guide.
+/// For clang before version 17, which cannot deduce the template argument of an aggregate.
 template <class Enum>
 EnumName(Enum, std::string_view) -> EnumName<Enum>;
 
-/// The names of an enumeration. Name each enumerator once. Messages and lists use the order of this array. Specialise
-/// this variable directly after the enumeration. Then to_string() and from_string() work for the enumeration:
+/// The names of an enumeration, each enumerator once, in the order of messages and lists. Specialise this variable
+/// directly after the enumeration, so that to_string() and from_string() work for it:
 ///
 ///   enum class Axis { x, y };
 ///   template <>

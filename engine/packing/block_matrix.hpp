@@ -30,8 +30,8 @@ struct BlockMatrix {
   int strains() const { return static_cast<int>(corner.cols()); }  ///< number of strains that are coordinates
   /// Number of rows: 6N plus the number of strains.
   Eigen::Index rows() const { return 6 * Eigen::Index{size()} + strains(); }
-  /// Adds the blocks of a pair of particles, row < column. Successive calls must be sorted by (row, column). Several
-  /// calls with the same row and column are allowed.
+  /// Adds the blocks of a pair of particles, row < column. Successive calls must be sorted by (row, column), and
+  /// several may have the same row and column.
   void add_pair(int row, int column, const Matrix6d& row_row, const Matrix6d& row_column,
                 const Matrix6d& column_column);
   /// Adds a matrix with the same numbers of blocks and strains.

@@ -24,31 +24,30 @@ struct Evaluation {
   Eigen::VectorXd gradient;
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();  ///< (1/V_cell) dE/dε, lab frame
   double pressure = 0;                               ///< −dE/dV_cell = −tr(stress)/3
-  /// With cohesion, the pressure of the terms V²/4 alone. It is the scale of stresses if the total pressure is 0.
+  /// With cohesion, the pressure of the terms V²/4 alone, which is the scale of stresses if the total pressure is 0;
   /// nullopt without cohesion.
   std::optional<double> repulsive_pressure = std::nullopt;
   /// mean of the contact force |F| over all touching pairs, without cohesion; 0 without contacts
   double mean_force = 0;
-  /// Largest value of |F_i| and |T_i|/R over all particles i, divided by mean_force. F_i is the net force and T_i the
-  /// net torque on a particle. The residual is 0 if all F_i and T_i are 0. It is infinite if mean_force is 0 but an F_i
-  /// or T_i is not. Enthalpy::of() also takes the stress into account.
+  /// Largest value of |F_i| and |T_i|/R over all particles i, divided by mean_force, where F_i is the net force and T_i
+  /// the net torque on a particle. It is 0 if all F_i and T_i are 0, and infinite if only mean_force is 0.
+  /// Enthalpy::of() also takes the stress into account.
   double residual = 0;
-  /// Residual that rounding errors alone can cause. A smaller residual is not significant, so a minimisation ends when
-  /// the residual is at most this value.
-  /// - Precision::working: the coordinates are rounded, and the floor is λ·ulp(L)/mean_force. L is the side of the
-  ///   cell, and ulp(L) = 2⁻⁵² L. λ is an estimate of the largest eigenvalue of the Hessian: twice the
-  ///   largest value that Σ_c ½ |∇V|² has for any particle, where c are the contacts of the particle.
+  /// Residual that rounding errors alone can cause, so a minimisation ends when the residual is at most this value.
+  /// - Precision::working: the coordinates are rounded, and the floor is λ·ulp(L)/mean_force, where L is the side of
+  /// the
+  ///   cell, ulp(L) = 2⁻⁵² L, and λ an estimate of the largest eigenvalue of the Hessian: twice the largest value that
+  ///   Σ_c ½ |∇V|² has for any particle, where c are the contacts of the particle.
   /// - Precision::double_double: V and S of the contacts have rounding errors, and the floor is b·max Σ_c ρ_c
-  ///   |F_c|/mean_force. The sum is over the contacts c of a particle, and the maximum over all particles. The factor b
-  ///   is the largest ratio of circumradius to radius of gyration, because the circumradius is the longest lever arm of
-  ///   a force. ρ_c = τ/max(d, V/|S|) + τ/√|S| is the relative error of the volume V and the vector area S of a
-  ///   contact. A distance of a vertex from a plane that is larger than d = double_double_below() has the error τ =
-  ///   gap_tolerance(). Smaller distances are correct to their last bits. The second term of ρ_c is due to the
-  ///   corners of the intersection, whose coordinates are doubles.
+  ///   |F_c|/mean_force, with the sum over the contacts c of a particle, and the maximum over all particles. The factor
+  ///   b is the largest ratio of circumradius to radius of gyration, because the circumradius is the longest lever arm
+  ///   of a force. ρ_c = τ/max(d, V/|S|) + τ/√|S| is the relative error of the volume V and the vector area S of a
+  ///   contact: a distance of a vertex from a plane has the error τ = gap_tolerance() if it is larger than d =
+  ///   double_double_below(), and is otherwise correct to its last bits. The second term is due to the corners of the
+  ///   intersection, whose coordinates are doubles.
   double residual_floor = 0;
   /// Error of the energy that the same rounding can cause, as a sum over contacts: Σ |F|·ulp(L) with
-  /// Precision::working, and Σ ρ_c V²/2 with Precision::double_double. Smaller differences of energies are not
-  /// significant.
+  /// Precision::working, and Σ ρ_c V²/2 with Precision::double_double.
   double energy_noise = 0;
   long contacts = 0;  ///< number of touching pairs
 };
@@ -57,8 +56,8 @@ struct Evaluation {
 /// cohesion by repulsive_pressure. It is 0 if the divisor is not positive.
 double deviator_of(const Evaluation& evaluation);
 
-/// Second derivatives of the energy, and the incipient contacts. The second derivatives contain no stiffness, or too
-/// little, for some incipient contacts; incipient_contact.hpp gives the reasons.
+/// Second derivatives of the energy, and the incipient contacts, for some of which the second derivatives contain no or
+/// too little stiffness (incipient_contact.hpp).
 struct SecondOrder {
   /// Hessian ∂²E/∂r². The coordinates r are (x, R·θ) for each particle, as in Evaluation::gradient, followed by the
   /// coordinates ℓ·ε of the free strains, with ℓ = strain_length() (cell/control.hpp).
@@ -77,8 +76,8 @@ struct Contact {
 };
 
 /// Computes energies, forces, Hessians and contacts of packings. An object contains only caches, such as a neighbour
-/// list, and counters. The result for a packing therefore does not depend on earlier evaluations. It also has the same
-/// bits for any number of threads.
+/// list, and counters, so the result for a packing does not depend on earlier evaluations. It has the same bits for any
+/// number of threads.
 class PackingEnergy {
  public:
   PackingEnergy() = default;
@@ -90,12 +89,11 @@ class PackingEnergy {
   bool accepts(const Packing& packing);
   /// Computes the energy and its first derivatives. Throws std::invalid_argument if the cell is not legal for the
   /// particles (is_legal() in cell/periodic_cell.hpp). With Precision::double_double, the volume, vector area and
-  /// moment of every contact are computed from both doubles of each coordinate, which takes about 10 % more time. With
-  /// both precisions, sums over contacts are computed in double.
+  /// moment of every contact are computed from both doubles of each coordinate, but summed in double.
   Evaluation evaluate(const Packing& packing, Precision precision = Precision::working);
-  /// Computes the Hessian from analytic formulae, and the incipient contacts for a probe distance (V_p^(1/3)). If the
-  /// probe distance is 0, the incipient contacts are all pairs that touch. The last rows and columns of the Hessian
-  /// belong to the free strains of `cell`.
+  /// Computes the Hessian from analytic formulae, and the incipient contacts for a probe distance (V_p^(1/3)), which
+  /// are all pairs that touch if the probe distance is 0. The last rows and columns of the Hessian belong to the free
+  /// strains of `cell`.
   SecondOrder second_order(const Packing& packing, double probe_distance, Precision precision = Precision::working,
                            CellFreedom cell = CellFreedom::fixed);
   /// Computes only the Hessian of second_order(), without strains.

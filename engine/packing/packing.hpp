@@ -12,8 +12,8 @@
 
 namespace isojam {
 
-/// A packing: N particles of mean volume V_p = 1 in a periodic cell. It is a value type. Positions are not wrapped into
-/// the cell.
+/// A packing: N particles of mean volume V_p = 1 in a periodic cell. It is a value type, whose positions are not
+/// wrapped into the cell.
 struct Packing {
   Composition solids;       ///< the solid of every particle
   PeriodicCell cell;        ///< the periodic cell

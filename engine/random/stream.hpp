@@ -10,9 +10,9 @@ namespace isojam {
 /// Purpose of a random stream; it is one element of the key of the stream.
 enum class Purpose : std::uint64_t { placement = 1, bootstrap = 2, percolation = 3 };
 
-/// A reproducible stream of random bits. It depends only on its key: for example the seed of the manifest, the solid,
-/// the number of particles, the replicate and the purpose. The C++ standard defines the 64-bit Mersenne twister and
-/// std::seed_seq bit by bit, but not its random distributions. Therefore this class itself converts the bits to random
+/// A reproducible stream of random bits, which depends only on its key: for example the seed of the manifest, the
+/// solid, the number of particles, the replicate and the purpose. The C++ standard defines the 64-bit Mersenne twister
+/// and std::seed_seq bit by bit, but not its random distributions, so this class itself converts the bits to random
 /// numbers.
 class RandomStream {
  public:
@@ -29,7 +29,7 @@ class RandomStream {
   std::mt19937_64 engine_;
 };
 
-/// 64-bit FNV-1a hash of a text. It converts a text, such as the name of a solid, to a number that a key can contain.
+/// 64-bit FNV-1a hash of a text, which makes a number for a key from a text such as the name of a solid.
 std::uint64_t hash_of(std::string_view text);
 
 }  // namespace isojam

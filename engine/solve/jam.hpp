@@ -44,9 +44,8 @@ inline constexpr std::array enum_names<CohesionUntil>{EnumName{CohesionUntil::de
 /// followed by a minimisation, until the target energy is reached. Energies are in units of Y·V_p.
 struct Compression {
   double initial_density = 0.05;  ///< density φ of the random packing
-  /// Increase of φ in a strain step. In a test with 16 packings of 100 octahedra, icosahedra or dodecahedra, steps of
-  /// 0.005, 0.01 and 0.02 gave the same φ_J within the confidence intervals. The default is the longest of these steps,
-  /// because compression then costs least.
+  /// Increase of φ in a strain step. The default is the longest of three steps that gave the same φ_J within the
+  /// confidence intervals (examples/02-strain-step), because compression then costs least.
   double step = 0.02;
   double target_energy = 3.2e-5;  ///< target energy per particle E/N; the value of the paper
   /// The paper's target energy can be interpreted in two ways:
@@ -56,15 +55,12 @@ struct Compression {
   /// - true: each strain step is halved, at most six times, until E/N before relaxation is at most target_energy.
   ///   Compression ends at the first state that has contacts and whose residual is at most 1e-3.
   bool target_before_relaxation = false;
-  /// Upper limit of φ. The cell must be so large that no particle can touch two images of another particle at this
-  /// density (is_legal() in packing/cell/periodic_cell.hpp). Crystals can exceed φ = 0.9 before they reach the target
-  /// energy.
+  /// Upper limit of φ, at which no particle may be able to touch two images of another one (is_legal() in
+  /// packing/cell/periodic_cell.hpp). Crystals can exceed φ = 0.9 before they reach the target energy.
   double max_density = 0.93;
-  /// Largest number of evaluations for a state. L-BFGS relaxes a state until the residual is at most 1e-3. The
-  /// relaxation ends earlier if E/N is below 1e-14, if the criterion minimise.energy_change is satisfied, or after this
-  /// number of evaluations. Decompression begins with a minimisation of the last state to an equilibrium. For the
-  /// paper's four solids, the differences between φ_J with 500 and with 2000 evaluations are not significant. For
-  /// tetrahedra, 2000 are nevertheless recommended: their φ_J increases by 0.005 ± 0.005 from 500 to 8000 evaluations
+  /// Largest number of evaluations for a state. L-BFGS relaxes a state until the residual is at most 1e-3, or until E/N
+  /// is below 1e-14, the criterion minimise.energy_change is satisfied, or this number of evaluations is reached. More
+  /// evaluations do not change φ_J significantly, except for tetrahedra, for which 2000 are recommended
   /// (examples/02-strain-step).
   int evaluations = 500;
 };
@@ -72,9 +68,9 @@ struct Compression {
 /// Options of decompression, the second stage: steps to lower densities, or to lower pressures, towards φ_J.
 struct Decompression {
   /// Length of a step as a fraction of φ − φ_J, which is estimated from the last state. A step is shorter if it would
-  /// otherwise exceed longest_step, or end at φ − φ_J < 0.95·final_distance. A step fails if it finds no equilibrium.
-  /// After a failed step, the next step is half as long. Each successful step increases the fraction by a factor of
-  /// 1.5, up to this value; below φ − φ_J = 0.001, where a longer step would fail again, it stays.
+  /// otherwise exceed longest_step, or end at φ − φ_J < 0.95·final_distance. If it finds no equilibrium, it fails, and
+  /// the next step is half as long. Each successful step increases the fraction by a factor of 1.5, up to this value,
+  /// except below φ − φ_J = 0.001, where a longer step would fail again.
   double step_fraction = 0.35;
   double longest_step = 0.05;     ///< largest decrease of φ in a step
   double final_distance = 0.004;  ///< decompression ends when φ − φ_J falls below this
@@ -90,9 +86,9 @@ struct JamOptions {
   Compression compression;      ///< options of the first stage
   Decompression decompression;  ///< options of the second stage
   /// Cohesion, by default none. Requires Compression::target_before_relaxation = false. With cohesion, compression ends
-  /// when the terms V²/4 alone reach the target energy after a relaxation without cohesion. With CohesionUntil::end,
-  /// the result has one state: the equilibrium at zero pressure, whose density takes the place of φ_J. The volume of
-  /// the cell relaxes, and with CellShape::free also its shape. Newton's method finds the state.
+  /// when the packing, relaxed without cohesion, has the target energy. With CohesionUntil::end, the result has one
+  /// state: the equilibrium at zero pressure, which Newton's method finds, and whose density takes the place of φ_J.
+  /// The volume of the cell relaxes, and with CellShape::free also its shape.
   Cohesion cohesion;
   CohesionUntil cohesion_until = CohesionUntil::decompression;  ///< stage until which cohesion acts
   /// Number of training cycles. In each cycle, the packing is decompressed to final_distance and compressed again,
@@ -111,17 +107,16 @@ template <>
 inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::compression, "compression"},
                                                  EnumName{JamStage::decompression, "decompression"}};
 
-/// Difference between two successive states of a solution branch. It is computed for every step from one state to the
-/// next; is_rearranged() decides whether the step contains a rearrangement. On a smooth solution branch, the energy is
-/// proportional to Δφ⁶, and all particles move by similar distances. In a rearrangement, the packing loses energy, and
-/// a few particles move much farther than the others.
+/// Difference between two successive states of a solution branch, from which is_rearranged() decides whether the step
+/// contains a rearrangement. On a smooth solution branch, the energy is proportional to Δφ⁶, and all particles move by
+/// similar distances. In a rearrangement, the packing loses energy, and a few particles move much farther than others.
 struct Rearrangement {
   /// E₁ divided by its expected value (Δφ₁/Δφ₀)⁶ E₀. The index 0 means the first state, 1 the second. Δφ₀ is
   /// distance_to_jamming() of the first state, and Δφ₁ = Δφ₀ − (φ₀ − φ₁).
   double energy_ratio = 0;
   /// numbers of pairs that touch only in the first state, and only in the second state
   int contacts_lost = 0, contacts_gained = 0;
-  /// Number of particles that moved: the participation number (Σu²)²/Σu⁴ with sums over all particles. u² = |dx|² +
+  /// Number of particles that moved: the participation number (Σu²)²/Σu⁴ with sums over all particles and u² = |dx|² +
   /// R²|dθ|², where dx is the non-affine displacement of a particle and dθ its rotation.
   double particles_moved = 0;
 };
@@ -207,8 +202,8 @@ std::vector<EnergyPoint> energy_points(const JamResult& result);
 /// φ − φ_J < fit_window.
 Cycle cycle_of(const JamResult& result, double fit_window);
 
-/// Everything that a run needs to continue after a strain step. It is a value type. A run that continues from it, in
-/// any process, gives the same bits as an uninterrupted run.
+/// Everything that a run needs to continue after a strain step. It is a value type, and a run that continues from it,
+/// in any process, gives the same bits as an uninterrupted run.
 struct JamProgress {
   /// packing from which the next step starts: the last minimised state, or the initial configuration
   Packing packing;
@@ -216,11 +211,11 @@ struct JamProgress {
   /// Present value of the step fraction: at first Decompression::step_fraction. It is smaller after steps that failed
   /// or ended a solution branch.
   double step_fraction = 0;
-  /// Number of steps of the decompression that failed or ended a solution branch. Each of them halves the step
+  /// Number of steps of the decompression that failed or ended a solution branch, each of which halves the step
   /// fraction. The fifth ends the decompression.
   int halvings = 0;
   /// Index in `path` of the last equilibrium of a solution branch that has just ended; otherwise −1. After the end of a
-  /// branch, `packing` is unjammed or far from equilibrium. The next steps compress it to an equilibrium of another
+  /// branch, `packing` is unjammed or far from equilibrium, and the next steps compress it to an equilibrium of another
   /// branch.
   int lost = -1;
   JamResult result;  ///< result so far; its status is not_called until the run has ended

@@ -33,9 +33,9 @@ struct ModeSet {
   /// eigenvectors u as columns, 6N × modes; orthonormal, and orthogonal to translations
   Eigen::MatrixXd vectors;
   double residual = 0;  ///< largest ‖Du − λu‖/λ_max of all modes
-  /// Upper bound of the relative error of the eigenvalues, the maximum of (‖Du − λu‖ + ε λ_max)/|λ| with ε = 2⁻⁵². By
-  /// Weyl's theorem, an exact eigenvalue of D differs from λ by at most ‖Du − λu‖. The matrix D itself has an error of
-  /// ε λ_max. The bound is infinite if a λ is 0.
+  /// Upper bound of the relative error of the eigenvalues, the maximum of (‖Du − λu‖ + ε λ_max)/|λ| with ε = 2⁻⁵²: by
+  /// Weyl's theorem, an exact eigenvalue of D differs from λ by at most ‖Du − λu‖, and D itself has an error of ε
+  /// λ_max. Infinite if a λ is 0.
   double relative_error = 0;
   int attempts = 0;  ///< number of attempts to compute the modes
 
@@ -54,27 +54,25 @@ struct SpectrumEnds {
 struct ModeOptions {
   int lowest = 50, highest = 50;  ///< numbers of modes; if the packing has fewer modes, all modes are computed
   /// Magnitude |σ|/λ_max of the shift σ < 0 in the first attempt. It must be larger than the rounding errors of the
-  /// translations in the factorisation. It must not be much larger than the smallest λ/λ_max, which is of order Δφ⁴:
-  /// 1e-12 for the packings of tetrahedra nearest to jamming. A shift of 1e-6 gives wrong modes for these packings.
+  /// translations in the factorisation, but not much larger than the smallest λ/λ_max, which is of order Δφ⁴: 1e-12 for
+  /// the packings of tetrahedra nearest to jamming, of which a shift of 1e-6 gives wrong modes.
   double shift = 1e-11;
   /// Relative accuracy of 1/(λ − σ) for the lowest modes, where σ is the shift. The inverse iteration converges so fast
   /// that full accuracy costs little.
   double lowest_tolerance = 1e-13;
   /// Largest relative residual of the highest modes. The relative error of an eigenvalue is about the square of its
-  /// residual. The highest eigenvalues are close to each other, so a higher accuracy costs much time.
+  /// residual, and a higher accuracy costs much time, because the highest eigenvalues are close to each other.
   double highest_tolerance = 1e-8;
-  int restarts = 300;  ///< largest number of restarts of the Krylov space
-  /// Largest number of particles for the dense solver. For 500 particles, it needs 216 MB and half a minute.
-  int largest_dense = 500;
+  int restarts = 300;       ///< largest number of restarts of the Krylov space
+  int largest_dense = 500;  ///< largest number of particles for the dense solver, which needs 216 MB for 500
 };
 
 /// Computes the lowest modes by the shift-invert Lanczos method with a shift below 0, and the highest modes by the
-/// Lanczos method for D itself. Start vectors are fixed, so the same matrix gives the same bits. A set of modes is
-/// computed again in three cases: the method does not converge, the residual shows that the factorisation was
-/// inaccurate, or modes below the shift are missing. The number of modes below the shift follows from Sylvester's law
-/// of inertia. The second attempt uses a larger subspace and a shift below the whole spectrum. The third attempt uses
-/// the dense solver, for at most `largest_dense` particles. If no modes are found, ModeSet::ended reports the failure,
-/// and nothing is thrown.
+/// Lanczos method for D itself. Start vectors are fixed, so the same matrix gives the same bits. If the method does not
+/// converge, if the residual shows that the factorisation was inaccurate, or if modes below the shift are missing,
+/// whose number follows from Sylvester's law of inertia, the modes are computed again: first with a larger subspace and
+/// a shift below the whole spectrum, then by the dense solver, for at most `largest_dense` particles. If no modes are
+/// found, ModeSet::ended reports the failure, and nothing is thrown.
 SpectrumEnds spectrum_ends(const BlockMatrix& matrix, const ModeOptions& options = {});
 
 /// Computes all 6N − 3 modes with the dense solver, in a time of O(N³) and with a memory of O(N²).

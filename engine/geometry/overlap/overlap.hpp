@@ -14,12 +14,12 @@ namespace isojam {
 static_assert(EIGEN_MAX_ALIGN_BYTES == 0, "compile with EIGEN_DONT_VECTORIZE, as isojam::engine requires");
 
 /// Algorithm that computed an overlap. separated: a separating axis or distance showed that the solids do not touch.
-/// loop: the overlap was computed from the closed loop in which the surfaces intersect. clip: clipped_overlap()
-/// computed it, which is slower and more exact, for degenerate pairs.
+/// loop: the closed loop in which the surfaces intersect gave the overlap. clip: clipped_overlap() gave it, which is
+/// slower and more exact, for degenerate pairs.
 enum class OverlapPath : std::uint8_t { separated, loop, clip };
 
-/// Intersection of two solids A and B. Vectors are relative to the centre of A. Placed solids give vectors in the lab
-/// frame; solids with a relative pose give vectors in the body frame of A. Quantities:
+/// Intersection of two solids A and B. Vectors are relative to the centre of A, in the lab frame for placed solids, and
+/// in the body frame of A for solids with a relative pose. Quantities:
 ///   volume  V
 ///   area    S_A = ∫ n dS = ∂V/∂x_A, the vector area of A's part of the boundary of the intersection
 ///   moment  M_A = ∫ (y−x_A)×n dS over the points y of A's part = ∂V/∂θ_A
@@ -40,27 +40,29 @@ struct Overlap {
 /// Computes the intersection of A and B, whose centres have the displacement r = x_B − x_A, from the closed loop C in
 /// which the two surfaces intersect. Notation: v → w is a segment of C, on face i of A and face j of B. Segments are
 /// oriented counter-clockwise, seen from outside A. Coordinates are relative to the point x_A + p, where p is
-/// ContactLoop::origin. The point is the midpoint of the centres. For very small or narrow contacts in double-double,
-/// it is a corner of the intersection instead. Then
+/// ContactLoop::origin: the midpoint of the centres, or for very small or narrow contacts in double-double, a corner of
+/// the intersection. Then
 ///   S_A = ½ Σ_C v×w
 ///   M_A = p×S_A − ½ Σ_C (w−v)(|v|² + v·w + |w|²)/3
 ///   V   = Σ_f ∫_f h n_P·n_f dA  over the faces f of the intersection, h the height over the least-penetrated plane P
 ///       = (1/6) Σ [t(left) − t(right)]  over its edges v → w, each with the faces to its left and right;
 ///         t(f) = n_P·((v−o)×(w−o)) (h_o+h_v+h_w), where o is a vertex of the face f
-/// Heights are interpolated between the distances of vertices from planes, which are stored in a table. Only
-/// refine_small_corners() computes them from coordinates, in double-double. Heights are 0 on P and small near P. For a
-/// face-face contact of any depth, V is therefore as accurate as the table. If the loop is not closed, or if a vertex
-/// lies on a face plane within rounding errors, clipped_overlap() computes the result. The function never throws. The
-/// result is correct for the coordinates as given. If the coordinates are doubles, their rounding moves faces by 1e-16;
-/// at a depth of 1e-13 this causes a relative error of V of 3e-3. If a face of A or B separates the solids by more than
-/// rounding errors, `axis` is set to its normal, for later use with separates(). If only another axis separates them,
-/// `axis` is set to Kind::none. The overload with a DoubleDoubleVector r uses A, B and r in double-double. The relative
-/// errors of V, S and M are then at most 1e-12, also for very flat and very small contacts, unless the intersection is
-/// much longer than wide. This is the case if the angle between an edge and a face is as small as the depth. The
-/// coordinates along the edge then have rounding errors that are large relative to the width, and the bound is
+/// Heights are interpolated between the distances of vertices from planes, which are stored in a table; only
+/// refine_small_corners() computes them from coordinates, in double-double. Because heights are 0 on P and small near
+/// P, V of a face-face contact of any depth is as accurate as the table. If the loop is not closed, or if a vertex lies
+/// on a face plane within rounding errors, clipped_overlap() computes the result. The function never throws.
+///
+/// If a face of A or B separates the solids by more than rounding errors, `axis` is set to its normal, for later use
+/// with separates(). If only another axis separates them, `axis` is set to Kind::none.
+///
+/// The result is correct for the coordinates as given, but the rounding of doubles moves faces by 1e-16, which at a
+/// depth of 1e-13 causes a relative error of V of 3e-3. The overload with a DoubleDoubleVector r uses A, B and r in
+/// double-double. The relative errors of V, S and M are then at most 1e-12, also for very flat and very small contacts,
+/// unless the angle between an edge and a face is as small as the depth: the intersection is then much longer than
+/// wide, the rounding errors of the coordinates along the edge are large relative to the width, and the bound is
 ///   1e-12 + 16 ε √(V_s/V), ε = 2.2e-16, V_s the volume of the smaller solid.
-/// The median of the errors is at most 1e-13. Without such narrow intersections, the median is at most 1e-15 for V <
-/// 1e-8. The error of M is relative to |S| times the inradius.
+/// The median of the errors is at most 1e-13, and without such narrow intersections at most 1e-15 for V < 1e-8. The
+/// error of M is relative to |S| times the inradius.
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis);
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, SeparatingAxis& axis);
 
@@ -94,8 +96,8 @@ struct OverlapHessian {
   Matrix6d aa, ab, bb;  ///< blocks for the coordinates of (A, A), (A, B) and (B, B)
 };
 
-/// Computes overlap() and the Hessian of V from the same loop. `hessian` is overwritten. It is zero if the solids are
-/// separated. It is also zero if clipped_overlap() computed V, because V of a degenerate pair has no second derivative.
+/// Computes overlap() and the Hessian of V from the same loop, and overwrites `hessian`. It is zero if the solids are
+/// separated, or if clipped_overlap() computed V, because V of a degenerate pair has no second derivative.
 Overlap overlap_with_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis,
                              OverlapHessian& hessian);
 Overlap overlap_with_hessian(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r,

@@ -11,8 +11,8 @@
 namespace isojam {
 
 /// A solid of which packings consist. It is a value type with the size of a pointer. Equal solids with the same name
-/// share one ConvexSolid, which exists until the program ends; packings may therefore store pointers to it. Solids are
-/// ordered as in lists and tables: first the Platonic solids as in all_solids, then the other built-in solids, then
+/// share one ConvexSolid, which exists until the program ends, so packings may store pointers to it. Solids are ordered
+/// as in lists and tables: first the Platonic solids as in all_solids, then the other built-in solids, then
 /// user-defined solids by name and vertices.
 class Solid {
  public:

@@ -12,10 +12,10 @@
 namespace isojam {
 
 /// Method of minimisation. With `multipliers`, jam() follows an equilibrium through each decompression step near
-/// jamming (solve/multipliers/). jam() also uses this method to find the first state of a decompression, if the
-/// packing from which it starts has a large residual. In minimise(), `multipliers` is the same as `newton`. The methods
-/// `conjugate_gradient`, `fire` and `lbfgs` do not converge near jamming. They are available for comparison.
-/// Compression always uses `lbfgs`.
+/// jamming (solve/multipliers/), and also finds the first state of a decompression in this way if the packing from
+/// which it starts has a large residual. In minimise(), `multipliers` is the same as `newton`. `conjugate_gradient`,
+/// `fire` and `lbfgs` are available for comparison, because they do not converge near jamming. Compression always uses
+/// `lbfgs`.
 enum class Method { conjugate_gradient, fire, lbfgs, newton, multipliers };
 template <>
 inline constexpr std::array enum_names<Method>{
@@ -28,8 +28,8 @@ struct MinimiseOptions {
   /// Largest residual of an equilibrium: the minimisation stops when Evaluation::residual is at most this value.
   double residual = 1e-6;
   /// Stopping criterion of the paper, with the value 1e-12 there: the minimisation stops when an iteration decreases
-  /// the energy by less than this fraction. 0: this criterion is not used. Near jamming, a state that satisfies the
-  /// criterion is not necessarily an equilibrium, but jam() accepts it.
+  /// the energy by less than this fraction; not used if it is 0. Near jamming, a state that satisfies the criterion is
+  /// not necessarily an equilibrium, but jam() accepts it.
   double energy_change = 0;
   /// Energy per particle (Y·V_p) below which a state that is not yet an equilibrium counts as unjammed. An equilibrium
   /// with contacts never counts as unjammed. Not used if the volume is free.
