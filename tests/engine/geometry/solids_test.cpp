@@ -78,21 +78,6 @@ TEST(NamedSolids, HaveNoOtherNames) {
     EXPECT_FALSE(Solid::named(name)) << name;
 }
 
-TEST(Hull, AllPointsOnASphereAreVertices) {
-  RandomStream random{61};
-  for (int trial = 0; trial < 40; ++trial) {
-    Points points;
-    for (int k = 0; k < 5 + trial % 8; ++k)
-      points.push_back(Vector3d(random.normal(), random.normal(), random.normal()).normalized());
-    const ConvexSolid solid("rock", points);
-    EXPECT_EQ(solid.given(), points);
-    EXPECT_EQ(solid.faces().size(), 2 * points.size() - 4) << "points in general position: triangles alone";
-    for (const Face& face : solid.faces()) {
-      for (const Vector3d& v : solid.vertices()) EXPECT_LE(face.normal.dot(v), face.offset + 64 * eps);
-    }
-  }
-}
-
 /// Index of the point that the error names; −1 if it names none, −2 if there is no error.
 int blamed(const Points& points) {
   try {

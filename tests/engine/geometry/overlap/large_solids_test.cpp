@@ -172,11 +172,6 @@ TEST(LargeSolids, AreRightWhereCornersAndEdgesMeet) {
   EXPECT_GT(std::popcount(faces.word[1]), 20);
 }
 
-TEST(LargeSolids, HaveTheHessiansOfDifferences) {
-  RandomStream random{100};
-  expect_hessians_of_differences([](const auto& visit) { for_each_pair(visit); }, random, 30);
-}
-
 /// ∂V/∂(x, θ) of both solids in quadruple precision.
 std::pair<Vector6d, Vector6d> gradients(const PosedPair& pair) {
   const QuadOverlap here = exact(pair);

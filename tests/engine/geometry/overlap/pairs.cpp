@@ -37,12 +37,6 @@ Pair random_contact(RandomStream& random, SolidKind a, SolidKind b, double least
 
 Overlap overlap(const Pair& pair) { return relative_overlap(pair.solid_a(), pair.solid_b(), pair.relative()); }
 
-Pair exchanged(const Pair& pair) { return {pair.kind_b, pair.kind_a, pair.b, pair.a}; }
-
-Eigen::Vector3d moment_of_b(const Overlap& overlap, const RelativePose& pose) {
-  return pose.displacement.cross(overlap.area) - overlap.moment;
-}
-
 std::string describe(const Pair& pair) {
   std::ostringstream text;
   text.precision(std::numeric_limits<double>::max_digits10);

@@ -22,8 +22,6 @@ struct Pair {
   const ConvexSolid& solid_b() const { return platonic(kind_b); }
   Eigen::Vector3d displacement() const { return b.position - a.position; }
   RelativePose relative() const { return relative_pose(a.orientation, b.orientation, displacement()); }
-  /// Upper limit of the distance of a point of one solid from the centre of the other.
-  double reach() const { return displacement().norm() + solid_a().circumradius() + solid_b().circumradius(); }
 };
 
 Eigen::Vector3d random_direction(RandomStream& random);
@@ -37,12 +35,6 @@ Pair random_pair(RandomStream& random, SolidKind a, SolidKind b, double distance
 Pair random_contact(RandomStream& random, SolidKind a, SolidKind b, double least_volume, double greatest_volume);
 
 Overlap overlap(const Pair& pair);
-
-/// The pair with A and B exchanged.
-Pair exchanged(const Pair& pair);
-
-/// The moment of B about its own centre, in the frame of A: M_B = −M_A + r×S_A.
-Eigen::Vector3d moment_of_b(const Overlap& overlap, const RelativePose& pose);
 
 /// Text with all digits of the pair, so that a failure can be reproduced.
 std::string describe(const Pair& pair);

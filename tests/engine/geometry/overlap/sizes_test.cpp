@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <utility>
 #include <vector>
 
 #include "engine/geometry/solids/solid.hpp"
@@ -89,43 +88,6 @@ TEST(UnlikeSizes, OneInsideTheOtherIsAccurate) {
   });
   std::printf("%d inside: %.1e at worst\n", inside, worst);
   EXPECT_GT(inside, 200);
-}
-
-/// Largest difference between the results for `larger` and the results for `pair` multiplied by powers of s, relative
-/// to |V|, |S|, |M| and |H|.
-double difference(const PosedPair& pair, const PosedPair& larger, double s) {
-  OverlapHessian h, scaled_h;
-  const Overlap one = found(pair, h), other = found(larger, scaled_h);
-  const auto off = [](const auto& p, const auto& q) { return (p - q).norm() / p.norm(); };
-  const auto rows = [s](const Matrix6d& block) {
-    const Vector6d powers = joined(Vector3d::Ones(), Vector3d::Constant(s));
-    return Matrix6d(powers.asDiagonal() * block * powers.asDiagonal() * s);
-  };
-  return std::max({std::abs(other.volume / (one.volume * s * s * s) - 1), off(Vector3d(one.area * s * s), other.area),
-                   off(Vector3d(one.moment * s * s * s), other.moment), off(rows(h.aa), scaled_h.aa),
-                   off(rows(h.ab), scaled_h.ab), off(rows(h.bb), scaled_h.bb)});
-}
-
-TEST(ScaledPairs, ScaleWithThePowersOfTheSize) {
-  RandomStream random{95};
-  double worst = 0;
-  int pairs = 0;
-  for (const auto& [s, limit] : {std::pair(2.0, 0.0), {.25, 0.0}, {1.7, 1e-12}, {.03, 1e-12}}) {
-    for (const Solid& kind_a : unit_solids()) {
-      for (const Solid& kind_b : unit_solids()) {
-        const ConvexSolid a(*kind_a, s), b(*kind_b, s);
-        const auto touching = at_volume(random_approach(*kind_a, *kind_b, random), pairs % 2 == 0 ? 1e-3 : 1e-8);
-        if (!touching) continue;
-        const PosedPair larger{a, b, scaled(touching->at_a, s), scaled(touching->at_b, s)};
-        const double here = difference(*touching, larger, s);
-        EXPECT_LE(here, limit) << to_string(kind_a) << " and " << to_string(kind_b) << " × " << s;
-        worst = std::max(worst, here);
-        ++pairs;
-      }
-    }
-  }
-  std::printf("%d scaled pairs: %.1e at worst\n", pairs, worst);
-  EXPECT_GT(pairs, 150);
 }
 
 }  // namespace
