@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
-#include <numeric>
 
 #include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "tests/engine/packing/packings.hpp"
@@ -70,102 +68,6 @@ TEST(PackingEnergyTest, IsTheSumOverAllPairs) {
     double largest = 0;
     for (int k = 0; k < 2 * packing.size(); ++k) largest = std::max(largest, sums.gradient.segment<3>(3 * k).norm());
     EXPECT_NEAR(got.residual, largest / mean_force, 1e-11 * got.residual) << describe(packing);
-  }
-}
-
-TEST(PackingEnergyTest, ForcesBalanceAndTorquesMatchTheStress) {
-  for (const Packing& packing : samples(12, particles, density)) {
-    const Evaluation got = PackingEnergy().evaluate(packing);
-    Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
-    for (int i = 0; i < packing.size(); ++i) {
-      force += got.gradient.segment<3>(6 * i);
-      torque += got.gradient.segment<3>(6 * i + 3) * packing.solids.only().gyration_radius();
-    }
-    const double all_forces = got.mean_force * static_cast<double>(got.contacts);
-    EXPECT_LE(force.norm(), 64 * epsilon * all_forces) << describe(packing);
-    // E does not change if everything is rotated, so the contributions of rotating the bodies and of rotating the
-    // displacements cancel.
-    const Matrix3d s = got.stress * packing.cell.volume();
-    const Vector3d axial(s(2, 1) - s(1, 2), s(0, 2) - s(2, 0), s(1, 0) - s(0, 1));
-    EXPECT_GT(axial.norm(), 1e-6 * s.norm()) << "a random packing has net torque";
-    EXPECT_LE((torque + axial).norm(), 64 * epsilon * all_forces * packing.cell.side()) << describe(packing) << "\n"
-                                                                                        << torque.transpose() << "\n"
-                                                                                        << axial.transpose();
-  }
-}
-
-TEST(PackingEnergyTest, TranslationOfAllChangesNothing) {
-  RandomStream random{13};
-  for (const Packing& packing : samples(13, particles, density)) {
-    const Evaluation before = PackingEnergy().evaluate(packing);
-    Packing shifted = packing;
-    const Vector3d shift(random.normal(), random.normal(), random.normal());
-    for (Pose& pose : shifted.poses) pose.position += shift;
-    const Evaluation after = PackingEnergy().evaluate(shifted);
-    EXPECT_EQ(after.contacts, before.contacts) << describe(packing);
-    EXPECT_NEAR(after.energy, before.energy, energy_tolerance(before)) << describe(packing);
-    EXPECT_LE((after.gradient - before.gradient).cwiseAbs().maxCoeff(), gradient_tolerance(before))
-        << describe(packing);
-  }
-}
-
-TEST(PackingEnergyTest, WrappingOneParticleChangesNothing) {
-  for (const Packing& packing : samples(14, particles, density)) {
-    const Evaluation before = PackingEnergy().evaluate(packing);
-    for (const Vector3d& sides : {Vector3d(1, 0, 0), Vector3d(0, -2, 1), Vector3d(-1, 1, 3)}) {
-      Packing wrapped = packing;
-      wrapped.poses[7].position += packing.cell.side() * sides;
-      const Evaluation after = PackingEnergy().evaluate(wrapped);
-      // If the coordinates are four times as large, their rounding errors are four times as large.
-      EXPECT_EQ(after.contacts, before.contacts) << describe(packing);
-      EXPECT_NEAR(after.energy, before.energy, 4 * energy_tolerance(before)) << describe(packing);
-      EXPECT_LE((after.gradient - before.gradient).cwiseAbs().maxCoeff(), 4 * gradient_tolerance(before))
-          << describe(packing);
-      EXPECT_LE((after.stress - before.stress).norm(), 1e-12 * before.stress.norm()) << describe(packing);
-    }
-  }
-}
-
-TEST(PackingEnergyTest, RenumberingPermutesTheGradient) {
-  RandomStream random{15};
-  for (const Packing& packing : samples(15, particles, density)) {
-    const Evaluation before = PackingEnergy().evaluate(packing);
-    std::vector<int> order(packing.poses.size());
-    std::iota(order.begin(), order.end(), 0);
-    for (std::size_t i = order.size() - 1; i > 0; --i)
-      std::swap(order[i], order[static_cast<std::size_t>(random.uniform() * static_cast<double>(i + 1))]);
-    Packing relabelled = packing;
-    for (std::size_t i = 0; i < order.size(); ++i) relabelled.poses[i] = packing.poses[order[i]];
-    const Evaluation after = PackingEnergy().evaluate(relabelled);
-    EXPECT_EQ(after.contacts, before.contacts) << describe(packing);
-    EXPECT_NEAR(after.energy, before.energy, energy_tolerance(before)) << describe(packing);
-    for (int i = 0; i < packing.size(); ++i) {
-      const Vector6d moved_along = before.gradient.segment<6>(6 * order[i]);
-      EXPECT_LE((after.gradient.segment<6>(6 * i) - moved_along).norm(), gradient_tolerance(before))
-          << describe(packing) << ", particle " << i;
-    }
-  }
-}
-
-TEST(PackingEnergyTest, RotatingTheCellRotatesForcesAndStress) {
-  const Quaterniond turn(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitZ()));
-  for (const Packing& packing : samples(16, particles, density)) {
-    const Evaluation before = PackingEnergy().evaluate(packing);
-    Packing turned = packing;
-    for (Pose& pose : turned.poses) {
-      pose.position = Vector3d(-pose.position.y(), pose.position.x(), pose.position.z());
-      pose.orientation = (turn * pose.orientation).normalized();
-    }
-    const Evaluation after = PackingEnergy().evaluate(turned);
-    EXPECT_EQ(after.contacts, before.contacts) << describe(packing);
-    EXPECT_NEAR(after.energy, before.energy, energy_tolerance(before)) << describe(packing);
-    for (int k = 0; k < 2 * packing.size(); ++k)
-      EXPECT_LE((after.gradient.segment<3>(3 * k) - turn * before.gradient.segment<3>(3 * k)).norm(),
-                gradient_tolerance(before))
-          << describe(packing) << ", vector " << k;
-    const Matrix3d r = turn.toRotationMatrix();
-    EXPECT_LE((after.stress - r * before.stress * r.transpose()).norm(), 1e-12 * before.stress.norm())
-        << describe(packing);
   }
 }
 

@@ -120,34 +120,6 @@ TEST(MixtureNeighbours, LargeParticlesDoNotAddPairsOfSmallOnes) {
   EXPECT_LT(10 * by_own, by_largest);
 }
 
-TEST(MixtureEnergy, IsTheSumOverAllPairs) {
-  PackingEnergy used;
-  for (const double ratio : {1.4, 3.0, 10.0}) {
-    const Packing packing = mixed(200, ratio, .7, 4);
-    double energy = 0;
-    long contacts = 0;
-    for (const NeighbourPair& pair :
-         find_neighbours_brute_force(packing, 2.001 * packing.solids.greatest_circumradius())) {
-      const RelativePose pose = relative_pose(packing.poses[pair.a].orientation, packing.poses[pair.b].orientation,
-                                              displacement(packing, pair));
-      const double volume = clipped_overlap(packing.solids[pair.a], packing.solids[pair.b], pose).volume;
-      energy += volume * volume / 4;
-      contacts += volume > 0;
-    }
-    const Evaluation fresh = PackingEnergy().evaluate(packing), cached = used.evaluate(packing);
-    EXPECT_EQ(fresh.contacts, contacts);
-    EXPECT_NEAR(fresh.energy, energy, 1e-12 * energy);
-    EXPECT_EQ(fresh.energy, cached.energy);
-    EXPECT_EQ(fresh.gradient, cached.gradient);
-    Packing swapped = packing;  // the same positions, other solids
-    std::vector<Particle> list(packing.solids.particles().begin(), packing.solids.particles().end());
-    std::reverse(list.begin(), list.end());
-    swapped.solids = Composition(list);
-    used.evaluate(swapped);
-    EXPECT_EQ(used.evaluate(packing).gradient, fresh.gradient);
-  }
-}
-
 TEST(MixtureEnvelope, IsTheEnergyAndHasItsSlopes) {
   const Packing packing = mixed(150, 3, .8, 5);
   const Evaluation exact = PackingEnergy().evaluate(packing, Precision::double_double);

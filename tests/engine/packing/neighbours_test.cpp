@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 
 #include "tests/engine/packing/packings.hpp"
 
@@ -40,52 +39,6 @@ Packing points(int n, double side, std::uint64_t seed) {
   return packing;
 }
 
-/// All pairs within reach, by testing every shift in a range that contains all neighbours.
-std::vector<Key> all_within(const Packing& packing, double reach) {
-  std::vector<Key> result;
-  const double side = packing.cell.side();
-  for (int a = 0; a < packing.size(); ++a) {
-    for (int b = a + 1; b < packing.size(); ++b) {
-      const Vector3d d = packing.poses[b].position - packing.poses[a].position;
-      std::array<int, 3> low{}, high{};
-      for (int c = 0; c < 3; ++c) {
-        low[c] = static_cast<int>(std::floor((-reach - d[c]) / side));
-        high[c] = static_cast<int>(std::ceil((reach - d[c]) / side));
-      }
-      for (int i = low[0]; i <= high[0]; ++i) {
-        for (int j = low[1]; j <= high[1]; ++j) {
-          for (int k = low[2]; k <= high[2]; ++k) {
-            if ((d + side * Vector3d(i, j, k)).norm() < reach) result.push_back({a, b, i, j, k});
-          }
-        }
-      }
-    }
-  }
-  return result;
-}
-
-TEST(NeighboursTest, AreAllPairsAndImagesWithinReach) {
-  const double side = 7;
-  for (const int n : {2, 10, 100}) {
-    const Packing packing = points(n, side, static_cast<std::uint64_t>(n));
-    for (const double fraction : {.1, .2, .3, .45, .55, .8, .9, 1.0, 1.3, 2.2}) {
-      const double reach = fraction * side;
-      const std::vector<Key> expected = all_within(packing, reach);
-      EXPECT_EQ(keys(find_neighbours_brute_force(packing, reach)), expected) << "N " << n << ", reach/L " << fraction;
-      EXPECT_EQ(keys(find_neighbours(packing, reach)), expected) << "N " << n << ", reach/L " << fraction;
-    }
-  }
-}
-
-TEST(NeighboursTest, SeveralImagesOccurBeyondHalfTheSide) {
-  const Packing packing = points(10, 7, 10);
-  std::set<std::pair<int, int>> pairs;
-  const std::vector<NeighbourPair> found = find_neighbours(packing, 6.5);
-  for (const NeighbourPair& pair : found) pairs.emplace(pair.a, pair.b);
-  EXPECT_EQ(pairs.size(), 45U);
-  EXPECT_GT(found.size(), 2 * pairs.size());
-}
-
 TEST(NeighboursTest, GridSearchAgreesWithTheSearchOverAllPairs) {
   for (const int n : {500, 2000}) {
     const Packing packing = points(n, 12, static_cast<std::uint64_t>(n));
@@ -98,18 +51,6 @@ TEST(NeighboursTest, GridSearchAgreesWithTheSearchOverAllPairs) {
   }
 }
 
-TEST(NeighboursTest, DisplacementIsThatOfTheImage) {
-  const Packing packing = points(200, 9, 3);
-  const double reach = 4;
-  for (const NeighbourPair& pair : find_neighbours(packing, reach)) {
-    const Vector3d d = displacement(packing, pair);
-    EXPECT_LT(d.norm(), reach);
-    const Vector3d bare = packing.poses[pair.b].position - packing.poses[pair.a].position;
-    EXPECT_LE((d - bare - 9 * pair.shift.cast<double>()).norm(), 8 * epsilon * (bare.norm() + 9));
-    EXPECT_LE((d - packing.cell.nearest_image(bare)).norm(), 8 * epsilon * (bare.norm() + 9));
-  }
-}
-
 /// Points in a cell of any shape.
 Packing skew_points(int n, std::uint64_t seed) {
   RandomStream random{9, seed};
@@ -119,14 +60,6 @@ Packing skew_points(int n, std::uint64_t seed) {
   Packing packing = deformed(points(n, 7, seed), f);
   packing.cell = packing.cell.reduced();
   return packing;
-}
-
-std::vector<std::pair<std::pair<int, int>, double>> distances(const Packing& packing, double reach) {
-  std::vector<std::pair<std::pair<int, int>, double>> result;
-  for (const NeighbourPair& pair : find_neighbours(packing, reach))
-    result.push_back({{pair.a, pair.b}, displacement(packing, pair).norm()});
-  std::sort(result.begin(), result.end());
-  return result;
 }
 
 TEST(NeighboursTest, OfSkewCellsAreAllPairsAndImagesWithinReach) {
@@ -148,25 +81,6 @@ TEST(NeighboursTest, OfSkewCellsAreAllPairsAndImagesWithinReach) {
       std::sort(expected.begin(), expected.end());
       EXPECT_EQ(keys(find_neighbours_brute_force(packing, reach)), expected) << "N " << n << ", reach " << reach;
       EXPECT_EQ(keys(find_neighbours(packing, reach)), expected) << "N " << n << ", reach " << reach;
-    }
-  }
-}
-
-TEST(NeighboursTest, DoNotDependOnTheVectorsThatSpanTheLattice) {
-  const Packing packing = skew_points(60, 5);
-  Packing skewer = packing;
-  DoubleDoubleMatrix vectors = packing.cell.vectors();
-  for (int r = 0; r < 3; ++r) {
-    vectors.set(r, 1, vectors(r, 1) + vectors(r, 0) * 2);
-    vectors.set(r, 2, vectors(r, 2) - vectors(r, 1));
-  }
-  skewer.cell = PeriodicCell(vectors);
-  for (const double reach : {1.0, 2.5, 4.0}) {
-    const auto here = distances(packing, reach), there = distances(skewer, reach);
-    ASSERT_EQ(here.size(), there.size()) << reach;
-    for (std::size_t k = 0; k < here.size(); ++k) {
-      EXPECT_EQ(here[k].first, there[k].first);
-      EXPECT_NEAR(here[k].second, there[k].second, 1e-12);
     }
   }
 }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "engine/packing/energy.hpp"
@@ -54,15 +53,6 @@ TEST(RandomPackingTest, FillsTheCellAndTheRotationsEvenly) {
   EXPECT_LE((squares.array() - 1.0 / 3).abs().maxCoeff(), error * std::sqrt(1.0 / 5 - 1.0 / 9)) << squares;
 }
 
-TEST(RandomPackingTest, RejectsInvalidNumbersAndDensities) {
-  const ConvexSolid& solid = platonic(SolidKind::octahedron);
-  RandomStream random{7, 1};
-  for (const int n : {0, -1}) EXPECT_THROW(random_packing(solid, n, .05, random), std::invalid_argument) << n;
-  for (const double density :
-       {0.0, -.1, 1.0001, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THROW(random_packing(solid, 1000, density, random), std::invalid_argument) << density;
-}
-
 TEST(RandomPackingTest, RejectsACellTooSmall) {
   for (const SolidKind kind : all_solids) {
     const ConvexSolid& solid = platonic(kind);
@@ -83,22 +73,6 @@ TEST(PackingEnergyTest, RejectsACellTooSmall) {
     EXPECT_THROW(energy.second_order(packing, 0), std::invalid_argument) << describe(packing);
     packing.cell = PeriodicCell(least_side(packing.solids.only()) * (1 + epsilon));
     EXPECT_GT(energy.evaluate(packing).contacts, 0) << describe(packing);
-  }
-}
-
-TEST(PackingEnergyTest, NoParticleTouchesTwoImagesInTheSmallestCell) {
-  for (const SolidKind kind : all_solids) {
-    for (std::uint64_t seed = 0; seed < 4; ++seed) {
-      const Packing packing = sample(kind, least_particles(platonic(kind), 1), 1, seed);
-      const std::vector<Contact> contacts = PackingEnergy().contacts(packing);
-      EXPECT_GT(contacts.size(), static_cast<std::size_t>(packing.size())) << describe(packing);
-      for (std::size_t k = 0; k < contacts.size(); ++k) {
-        EXPECT_LT(contacts[k].pair.a, contacts[k].pair.b);
-        if (k == 0) continue;
-        EXPECT_FALSE(contacts[k].pair.a == contacts[k - 1].pair.a && contacts[k].pair.b == contacts[k - 1].pair.b)
-            << describe(packing) << ": " << contacts[k].pair.a << " and " << contacts[k].pair.b;
-      }
-    }
   }
 }
 

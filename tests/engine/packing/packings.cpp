@@ -25,16 +25,6 @@ double energy_tolerance(const Evaluation& evaluation) {
   return 16 * evaluation.energy_noise + epsilon * static_cast<double>(evaluation.contacts) * evaluation.energy;
 }
 
-Eigen::MatrixXd dense(const BlockMatrix& matrix) {
-  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(6 * matrix.size(), 6 * matrix.size());
-  for (int i = 0; i < matrix.size(); ++i) full.block<6, 6>(6 * i, 6 * i) = matrix.diagonal[i];
-  for (const BlockMatrix::Block& block : matrix.off_diagonal) {
-    full.block<6, 6>(6 * block.row, 6 * block.column) = block.value;
-    full.block<6, 6>(6 * block.column, 6 * block.row) = block.value.transpose();
-  }
-  return full;
-}
-
 std::string describe(const Packing& packing) {
   std::ostringstream text;
   text << packing.solids.unit(0).name() << (packing.solids.is_uniform() ? "" : " and others") << ", N "

@@ -24,8 +24,6 @@ Eigen::VectorXd random_step(RandomStream& random, int n);
 /// Upper limit of the rounding error of the energy, which comes from the coordinates and from the sum over contacts.
 double energy_tolerance(const Evaluation& evaluation);
 
-Eigen::MatrixXd dense(const BlockMatrix& matrix);
-
 /// Text such as "octahedron, N 60, L 4.2".
 std::string describe(const Packing& packing);
 

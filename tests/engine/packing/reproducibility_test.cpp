@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_group.h>
 
 #include "engine/packing/energy.hpp"
 #include "tests/engine/packing/packings.hpp"
@@ -162,19 +161,6 @@ TEST(ReproducibilityTest, TheNumberOfThreadsChangesNothing) {
     };
     const Answer one = with_threads(1);
     for (int again = 0; again < 3; ++again) expect_same_bits(one, with_threads(2));
-  }
-}
-
-TEST(ReproducibilityTest, ACancelledTaskChangesNothing) {
-  for (const Packing& packing : samples(35, particles, density)) {
-    SCOPED_TRACE(describe(packing));
-    const Answer alone = fresh(packing);
-    tbb::task_group group;
-    group.run([&] {
-      group.cancel();
-      expect_same_bits(fresh(packing), alone);
-    });
-    group.wait();
   }
 }
 
