@@ -20,7 +20,7 @@ AFTER = (0.02, 0.01, 0.007)  # Δφ of the states after the cohesion was switche
 AT = 0.01  # Δφ at which packings without cohesion are compared
 NO_COHESION = 1e-12  # strength of the packings that count as packings without cohesion
 RESAMPLES = 200  # bootstrap samples of the thresholds
-FITTED_BELOW = 0.3  # largest S/N of the states to which the common curve S(Z_ff) is fitted
+FITTED_BELOW = 1.6  # largest Z_ff of the states to which the common curve S(Z_ff) is fitted
 
 
 class Data:
@@ -67,9 +67,11 @@ def mean(replicates, column):
     return estimate_of([r["phi"] if column == "phi_0" else last(r, column) for r in replicates])
 
 
-def constraints(replicates):
-    """C by fit; its systematic error is half the difference between doubled and halved cut-offs."""
-    central, half, double = (mean(replicates, name) for name in ("C", "C_half", "C_double"))
+def constraints(replicates, distance=None):
+    """C by fit, in the last states or at a distance Δφ; its systematic error is half the difference between doubled and
+    halved cut-offs."""
+    central, half, double = (mean(replicates, name) if distance is None else estimate_of(
+        values_at(replicates, name, distance)) for name in ("C", "C_half", "C_double"))
     known = central and half and double
     return {**central, "systematic": 0.5 * abs(double["mean"] - half["mean"])} if known else central
 
@@ -110,10 +112,10 @@ def points(data, particles, method="fit"):
     return made
 
 
-def collapse(data, particles, method="fit"):
-    """Fits ln S by a cubic polynomial of Z_ff, for states with S below FITTED_BELOW·N. Compares the mean residual of
-    each group with its standard error, and χ² of the groups with one state per packing."""
-    chosen = [p for p in points(data, particles, method) if p[1] < FITTED_BELOW * particles]
+def collapse(data, particles, below=FITTED_BELOW):
+    """Fits ln S by a cubic polynomial of Z_ff, for states with Z_ff below a limit. Compares the mean residual of each group
+    with its standard error, and χ² of the groups with one state per packing."""
+    chosen = [p for p in points(data, particles) if p[0] < below]
     z, log_s = numpy.array([p[0] for p in chosen]), numpy.log([p[1] for p in chosen])
     curve = numpy.polynomial.Polynomial.fit(z, log_s, 3)
     groups = {}
@@ -128,9 +130,9 @@ def collapse(data, particles, method="fit"):
 
 
 # ---- Thresholds ----------------------------------------------------------------------------------------------------
-def logistic_curves(pairs):
-    """Logistic curves p = 1/(1 + exp((m − z)/s)) of pairs (z, outcome from 0 to 1): arrays of m and of s, for the pairs
-    themselves and then for bootstrap samples of them. They are NaN for a sample without outcomes on both sides of 1/2.
+def logistic_middles(pairs):
+    """Logistic curves p = 1/(1 + exp((m − z)/s)) of pairs (z, outcome from 0 to 1): array of m, for the pairs themselves and
+    then for bootstrap samples of them. It is NaN for a sample without outcomes on both sides of 1/2.
 
     Jeffreys' prior keeps the curves finite where the outcomes are separated (D. Firth, Biometrika 80, 27, 1993)."""
     z, y = numpy.array(pairs).T
@@ -152,7 +154,7 @@ def logistic_curves(pairs):
         b0, b1 = b0 + step[0], b1 + step[1]
     sides = (counts @ (y > 0.5) > 0) & (counts @ (y < 0.5) > 0) & (b1 > 0)
     b1 = numpy.where(sides, b1, numpy.nan)
-    return middle - spread * b0 / b1, spread / b1
+    return middle - spread * b0 / b1
 
 
 def winding_pairs(replicates, method, of_random):
@@ -179,18 +181,7 @@ def interval_of(values):
 def threshold_of(replicates, method="fit", of_random=False):
     """Z_ff at which half of the packings percolate."""
     pairs = winding_pairs(replicates, method, of_random)
-    return interval_of(logistic_curves(pairs)[0]) if len(pairs) > 7 else None
-
-
-def crossing_of(smaller, larger, method="fit", of_random=False):
-    """Z_ff where the logistic curves of two sizes have the same probability. There is none unless nine tenths of the
-    bootstrap samples have a steeper curve for the larger size."""
-    sides = [winding_pairs(replicates, method, of_random) for replicates in (smaller, larger)]
-    if min(map(len, sides)) < 8:
-        return None
-    (middle, width), (other, narrower) = map(logistic_curves, sides)
-    steeper = numpy.where(width > narrower, width - narrower, numpy.nan)
-    return interval_of((other * width - middle * narrower) / steeper)
+    return interval_of(logistic_middles(pairs)) if len(pairs) > 7 else None
 
 
 def all_of_size(data, particles, solids=SOLIDS):

@@ -10,10 +10,10 @@ sys.path.insert(0, str(HERE.parent / "page"))
 import pages  # noqa: E402
 import values  # noqa: E402
 from analysis import (  # noqa: E402, F401
-    AT, SOLIDS, Data, all_of_size, branching_near, chi_squared, collapse, constraints, crossing_of, difference_at,
+    AT, SOLIDS, Data, all_of_size, branching_near, chi_squared, collapse, constraints, difference_at,
     last, loops_near, mean, threshold_of, values_at)
 from estimates import difference_of, estimate_of  # noqa: E402
-from tables import TABLES, change_table, limits_text, main_table, sizes_table  # noqa: E402, F401
+from tables import TABLES, change_table, main_table, sizes_table  # noqa: E402, F401
 from text import interval, number, significant  # noqa: E402
 
 TITLE = "Cohesion and the percolation of face-face contacts"
@@ -28,25 +28,29 @@ def kept(data, column, solid, w, particles="100"):
     return number(mean(data.kept(solid, int(particles), float(w)), column)["mean"], 2)
 
 
-def without(data, column, solid):
+def without(data, column, solid, text=lambda found: number(found["mean"], 2)):
     """Mean of a column without cohesion, N = 100, at Δφ = AT."""
-    return number(estimate_of(values_at(data.untreated(solid, 100), column, AT))["mean"], 2)
+    return text(estimate_of(values_at(data.untreated(solid, 100), column, AT)))
 
 
-def solid_threshold(data, solid, null=""):
-    """Threshold of one solid, N = 100, without its interval."""
-    return number(threshold_of(all_of_size(data, 100, (solid,)), "fit", null == "random")["mean"], 2)
+def of_solids(data, of_random=False):
+    """Thresholds of the solids that have one, N = 100."""
+    return [found for solid in SOLIDS if (found := threshold_of(all_of_size(data, 100, (solid,)), "fit", of_random))]
+
+
+def solid_threshold(data, which):
+    """Least or greatest threshold of random bonds in one solid, their difference, or the largest error of a threshold
+    of face-face contacts in one solid."""
+    means = [one["mean"] for one in of_solids(data, True)]
+    errors = [max(one["high"] - one["mean"], one["mean"] - one["low"]) for one in of_solids(data)]
+    return number({"least": min(means), "greatest": max(means), "contrast": max(means) - min(means),
+                   "error": max(errors)}[which], 2)
 
 
 def threshold_error(data, particles):
     """The threshold ± half the width of its interval."""
     found = threshold_of(all_of_size(data, int(particles)))
     return interval({**found, "half_width": 0.5 * (found["high"] - found["low"])})
-
-
-def random_crossing(data, smaller, larger):
-    found = crossing_of(all_of_size(data, int(smaller)), all_of_size(data, int(larger)), "fit", True)
-    return limits_text(found)
 
 
 def memory(data, solid, particles, w="all"):
@@ -66,10 +70,12 @@ def forgotten(data, particles):
     return significant(chi_squared(differences)[2], 1)
 
 
-def misfit(data, which, particles="100"):
+def misfit(data, which, *below):
     """Factor by which S of a group (`between`) or of one state (`within`) deviates from the common curve, one standard
-    deviation; or χ² of the groups."""
-    found = collapse(data, int(particles))
+    deviation; or χ² of the groups, its degrees of freedom, or the probability of a larger one; below a Z_ff."""
+    found = collapse(data, 100, *map(float, below))
+    if which == "p":
+        return significant(found["chi_squared"][2], 1)
     if which in ("chi_squared", "freedom"):
         return number(found["chi_squared"][("chi_squared", "freedom").index(which)], 0)
     return number(math.exp(found[which]), 2)
@@ -118,9 +124,14 @@ def redundant(data, solid, w):
     return f"{number((found['mean'] - 12) / 2, 1)} ± {number((found['half_width'] + found['systematic']) / 2, 1)}"
 
 
+def denser(data, solid):
+    """Z_ff at about Δφ = AT without cohesion, of packings that were compressed further, to E/N = 3.2e-5."""
+    return estimate_of([r["cycles"][0]["Z_ff"] for r in data.of("percolation-cycles", solid=solid)])
+
+
 def branching(data, particles, null=""):
-    """Branching ratio at the threshold."""
-    z = threshold_of(all_of_size(data, int(particles)), "fit", null == "random")["mean"]
+    """Branching ratio of the packings at the threshold, of their face-face contacts or of random bonds."""
+    z = threshold_of(all_of_size(data, int(particles)))["mean"]
     return interval(branching_near(data, int(particles), z, null == "random"))
 
 
@@ -130,11 +141,13 @@ def loops(data, particles):
     return number(100 * loops_near(data, int(particles), z), 0)
 
 
-FUNCTIONS = {"kept": kept, "without": without, "threshold_error": threshold_error,
-             "solid_threshold": solid_threshold, "random_crossing": random_crossing, "memory": memory,
+FUNCTIONS = {"kept": kept, "without": without, "without_interval": lambda data, column, solid: without(data, column, solid, interval),
+             "threshold_error": threshold_error,
+             "solid_threshold": solid_threshold, "memory": memory,
              "forgotten": forgotten, "undetected": undetected, "misfit": misfit,
              "branching": branching, "loops": loops, "constraints": constraints_text,
-             "others": others, "ranged": ranged, "cubes": cubes, "density_loss": density_loss, "redundant": redundant}
+             "others": others, "ranged": ranged, "cubes": cubes, "density_loss": density_loss, "redundant": redundant,
+             "denser": lambda data, solid: interval(denser(data, solid))}
 
 
 value_of = values.value_of(FUNCTIONS)
@@ -178,8 +191,18 @@ CLAIMS = {
     "are crystals, and": lambda data: int(cubes(data, "crystals")) + int(cubes(data, "failed")) == len(
         data.studies["percolation-cubes"]),
     "about half of these are under tension": lambda data: 0.35 < min(tension(data)) and max(tension(data)) < 0.7,
-    "It is smaller than for random bonds at the same Z_ff": lambda data: float(branching(data, "100").split()[0]) < float(
+    "It is smaller than for random bonds in the same packings": lambda data: float(branching(data, "100").split()[0]) < float(
         branching(data, "100", "random").split()[0]),
+    "By the paper's fit of the cut-offs,": lambda data: mean(data.kept("icosahedron", 100, 1e-6), "Z_ff_trough") is None,
+    "The data do not show whether the thresholds of face-face contacts differ likewise:": lambda data: float(
+        solid_threshold(data, "error")) > float(solid_threshold(data, "contrast")) and all(
+            abs(one["mean"] - other["mean"]) < max(one["high"] - one["low"], other["high"] - other["low"])
+            for one in of_solids(data) for other in of_solids(data)),
+    "The deviations of the groups are not significant": lambda data: collapse(data, 100)["chi_squared"][2] > 0.05,
+    "but they are if states up to Z_ff = 1.8 are included": lambda data: collapse(data, 100, 1.8)["chi_squared"][2] < 0.01,
+    "A compression that ends at 1e-9 instead of 3.2e-5 alone raises Z_ff of octahedra": lambda data: (
+        found := difference_of([r["cycles"][0]["Z_ff"] for r in data.of("percolation-cycles", solid="octahedron")],
+                               values_at(data.untreated("octahedron", 100), "Z_ff_fit", AT)))["mean"] > 2 * found["half_width"],
 }
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Tables of the page and of tables.md. Each function returns Markdown."""
 
-from analysis import (AFTER, AT, NO_COHESION, SOLIDS, all_of_size, collapse, constraints, crossing_of, difference_at,
-                      excess, last, mean, threshold_of, values_at)
+from analysis import (AFTER, AT, NO_COHESION, SOLIDS, all_of_size, collapse, constraints, difference_at, excess,
+                      last, mean, threshold_of, values_at)
 from estimates import estimate_of
 from text import counted, interval, number, table
 
@@ -24,8 +24,8 @@ def main_table(data):
     rows = []
     for solid in SOLIDS:
         packings = data.untreated(solid, 100)
-        z, c, order = (interval(estimate_of(values_at(packings, column, AT))) for column in ("Z_ff_fit", "C", "Q6"))
-        rows.append([solid, "0", interval(estimate_of([r["phi"] for r in packings])), z, c,
+        z, order = (interval(estimate_of(values_at(packings, column, AT))) for column in ("Z_ff_fit", "Q6"))
+        rows.append([solid, "0", interval(estimate_of([r["phi"] for r in packings])), z, interval(constraints(packings, AT)),
                      share_text(packings, "winding_fit"), order])
         for w in SHOWN:
             packings = data.kept(solid, 100, w)
@@ -140,18 +140,6 @@ def cycles_table(data):
     return table(["solid", "cycle", "φ_J", "Z_ff", "Z"], rows)
 
 
-def crossings_table(data):
-    rows = []
-    for m in METHODS:
-        for sizes in ((100, 200), (200, 400), (100, 400)):
-            cells = []
-            for of_random in (False, True):
-                found = crossing_of(*(all_of_size(data, n) for n in sizes), m, of_random)
-                cells.append(limits_text(found))
-            rows.append([m, f"{sizes[0]} and {sizes[1]}", *cells])
-    return table(["cut-off", "N", "Z_ff of equal probability", "the same for random bonds"], rows)
-
-
 TABLES = [
     ("Packings at zero pressure", """Cohesion acts until the end. Z counts the pairs that touch, and Z_grown the pairs
      that attract each other. Crystals are counted, and left out of the means. *Tension* is the share of the contacts that
@@ -161,10 +149,7 @@ TABLES = [
      same packing.""", clusters_table),
     ("Thresholds", """Logistic regression of whether a packing percolates on its Z_ff, over all packings of a size. In
      parentheses: 95 % confidence interval (percentiles of a bootstrap over packings).""", thresholds_table),
-    ("Crossings", """Z_ff at which packings of two sizes have the same probability to percolate, from the logistic
-     curves of the table above. In parentheses: 95 % confidence interval. A dash means that the data do not determine
-     the crossing.""", crossings_table),
-    ("The common curve", """A cubic polynomial of Z_ff was fitted to ln S of all states with N = 100 and S < 0.3 N.
+    ("The common curve", """A cubic polynomial of Z_ff was fitted to ln S of all states with N = 100 and Z_ff < 1.6.
      The table has the mean deviation of each group from this curve. The states of a decompression are not
      independent, so the intervals of groups with cohesion until decompression are too narrow.""", collapse_table),
     ("Clusters beside those of random bonds", "N = 100, in the last state of each packing.", excess_table),

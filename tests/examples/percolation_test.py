@@ -71,16 +71,6 @@ class Thresholds(unittest.TestCase):
     def test_one_side(self):
         self.assertIsNone(analysis.threshold_of(packings(random.Random(1), 50, middle=9)))
 
-    def test_crossing(self):
-        stream = random.Random(2)
-        curves = packings(stream, 3000, 1.8, 0.3), packings(stream, 3000, 1.7, 0.1)
-        found = analysis.crossing_of(*curves)  # (z − 1.8)/0.3 = (z − 1.7)/0.1
-        print("crossing", found)
-        self.assertLess(found["low"], 1.65)
-        self.assertGreater(found["high"], 1.65)
-        self.assertLess(found["high"] - found["low"], 0.12)
-        self.assertIsNone(analysis.crossing_of(curves[1], curves[0]))
-
 
 class Collapse(unittest.TestCase):
     def test_groups(self):
