@@ -1,4 +1,4 @@
-# Verbs: run test build bench bench-against paper rigidity percolation reproducibility docs test-asan fuzz polyhedra
+# Verbs: run test build bench bench-against paper percolation reproducibility docs test-asan fuzz polyhedra
 # test-slurm test-debian12 test-debian13 package test-packages lint format packages clean. On Debian 12 and 13 each verb
 # first installs the packages that it needs and that are missing.
 #   make lint LINT='engine/solve/jam.cpp'
@@ -63,7 +63,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DISOJAM_NATIVE=ON -DCMAKE_EXPORT_CO
 # and forth between `make run` and `make test` compiles nothing twice.
 CONFIGURE_PROGRAM = $(CONFIGURE) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DISOJAM_TESTS=OFF)
 
-.PHONY: build run test test-asan fuzz test-slurm bench paper rigidity percolation docs lint format clean
+.PHONY: build run test test-asan fuzz test-slurm bench paper percolation docs lint format clean
 .DEFAULT_GOAL := build
 
 # Names other folders where the source folder cannot be written.
@@ -95,32 +95,28 @@ studies = @for study in $(1); do \
 	done
 # Measures that take long, only of the states nearest jamming: of all states, if a manifest has them.
 nearest = @$(BUILD)/isojam measure results/$(1) --add $(2) >/dev/null || [ $$? = 1 ]
-define nearest_400
-	$(call nearest,paper-400,backbone)
-	$(call nearest,paper-400-tetrahedra,backbone$(comma)rigidity)
-endef
 comma := ,
+GATHER = $(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results
 page = @$(PYTHON) -B examples/$(1)/figures.py results/$(1) $(2) && \
 	  $(PYTHON) -B examples/$(1)/page.py --data $(2) -o results/$(1)
+# Both pages need the studies of both, and that of the paper two of percolation.
 paper: build
 	$(call install,python3 python3-matplotlib python3-scipy)
 	$(call studies,$(PAPER),paper)
-	$(nearest_400)
+	$(call studies,$(RIGIDITY),rigidity)
+	$(call studies,removed100 cycles,percolation)
+	$(call nearest,paper-400,backbone)
+	$(call nearest,paper-400-tetrahedra,backbone$(comma)rigidity)
 	$(call nearest,paper-4000,rigidity)
 	$(call nearest,paper-unstable,difference_modes)
-	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/paper/records.json $(addprefix paper-,$(PAPER:n%=%))
-	$(call page,paper,results/paper/records.json)
-
-rigidity: build
-	$(call install,python3 python3-matplotlib python3-scipy)
-	$(call studies,n100 n400 n400-tetrahedra,paper)
-	$(call studies,$(RIGIDITY),rigidity)
-	$(nearest_400)
 	$(call nearest,rigidity-800,modes$(comma)moduli$(comma)rigidity)
-	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/rigidity/paper.json paper-100 paper-400 paper-400-tetrahedra
-	@$(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results results/rigidity/records.json \
-	  $(addprefix rigidity-,$(RIGIDITY:n%=%))
-	$(call page,rigidity,results/rigidity/paper.json results/rigidity/records.json)
+	@$(GATHER) results/paper/records.json $(addprefix paper-,$(PAPER:n%=%))
+	@$(GATHER) results/rigidity/records.json $(addprefix rigidity-,$(patsubst n%,%,$(filter-out constraints%,$(RIGIDITY))))
+	@$(GATHER) results/rigidity/constraints.json $(addprefix rigidity-,$(filter constraints%,$(RIGIDITY)))
+	@$(PYTHON) -B examples/percolation/gather.py $(BUILD)/isojam results results/paper/percolation.json percolation-removed100 percolation-cycles
+	$(call page,paper,$(addprefix results/,paper/records.json paper/percolation.json rigidity/constraints.json))
+	$(call page,rigidity,$(addprefix results/,paper/records.json rigidity/records.json rigidity/constraints.json))
+	@$(PYTHON) -B examples/page/verdict.py results/rigidity/constraints.json
 
 percolation: build
 	$(call install,python3 python3-matplotlib python3-scipy)

@@ -16,7 +16,8 @@ PROTOCOL = "paper-protocol"  # the study whose replicates have other compression
 # Studies of one question each. Means over Platonic solids do not use them.
 NEGATIVE, EMERGENCE, SOLIDS_64, LARGE = "paper-unstable", "paper-emergence", "rigidity-solids", "paper-4000"
 CONSTRAINTS = ("rigidity-constraints", "rigidity-constraints-tetrahedra")
-APART = (PROTOCOL, NEGATIVE, EMERGENCE, SOLIDS_64, LARGE, *CONSTRAINTS)
+REMOVED, CYCLES = "percolation-removed100", "percolation-cycles"
+APART = (PROTOCOL, NEGATIVE, EMERGENCE, SOLIDS_64, LARGE, *CONSTRAINTS)  # and those of percolation
 CHOICES = (1, 2, 4)  # factors of the fit window of φ_J, whose effect is the systematic error of exponents
 
 
@@ -84,7 +85,7 @@ class Data:
                     r["states"] |= derived(r["states"], r["particles"])
 
     def main(self):
-        return [study for name, study in self.studies.items() if name not in APART]
+        return [study for name, study in self.studies.items() if name not in APART and "percolation" not in name]
 
     def kept_of(self, name, solid):
         """Replicates of one study that means use."""
@@ -196,11 +197,6 @@ class Data:
             if r["setting"] != ours and place(r) in base:
                 pairs.setdefault(tuple(r["setting"].values()), []).append(r["phi_j"] - base[place(r)])
         return {setting: estimate_of(values) for setting, values in sorted(pairs.items()) if len(values) >= 3}
-
-    def protocol_range(self, solid):
-        """Smallest and largest mean shift, and 0."""
-        shifts = [0.0, *(e["mean"] for e in self.protocol_shifts(solid).values())]
-        return min(shifts), max(shifts)
 
     def minima(self, solid, particles):
         """States nearest jamming that are minima with three zero modes: by all particles, by the backbone of the others,

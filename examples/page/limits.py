@@ -1,5 +1,6 @@
-"""Limits of quantities for Δφ → 0, with their uncertainty. All functions are pure."""
+"""Limits of quantities for Δφ → 0 or N → ∞, with their uncertainty. All functions are pure."""
 
+import math
 import statistics
 
 from estimates import resamples, student
@@ -57,6 +58,17 @@ def limit(paths, window, exponent, draws=100, seed=1):
     t = student(len(inside) - 1)
     return {"mean": a, "half_width": t * statistics.stdev(fit[0] for fit in found), "n": len(inside), "exponent": x,
             "exponent_half_width": t * statistics.stdev(fit[1] for fit in found)}
+
+
+def extrapolated(points):
+    """Intercept of a line through points (x, y, half width of y), weighted by their half widths."""
+    weights = [width ** -2 for _, _, width in points]
+    total = sum(weights)
+    mean_x = sum(w * x for w, (x, _, _) in zip(weights, points)) / total
+    mean_y = sum(w * y for w, (_, y, _) in zip(weights, points)) / total
+    xx = sum(w * (x - mean_x) ** 2 for w, (x, _, _) in zip(weights, points))
+    slope = sum(w * (x - mean_x) * (y - mean_y) for w, (x, y, _) in zip(weights, points)) / xx
+    return {"mean": mean_y - slope * mean_x, "half_width": math.sqrt(1 / total + mean_x ** 2 / xx), "n": len(points)}
 
 
 def limit_of_choices(paths, windows, central=(0, None)):

@@ -1,8 +1,9 @@
 """Numbers in sentences that both pages use: functions of the data and of words of a mark, which return text."""
 
+import verdict
 from data import PLURALS, SOLIDS
 from marks import PageError
-from text import interval, number, signed
+from text import interval, number
 
 
 def estimate(data, column, solid, particles, distance=None):
@@ -20,12 +21,6 @@ def column_range(data, column, particles, places="1"):
     """Smallest and largest mean over the solids nearest jamming, without solids that lack it."""
     found = [e["mean"] for solid in SOLIDS if (e := data.nearest(solid, int(particles), column))]
     return f"{number(min(found), int(places))} … {number(max(found), int(places))}" if found else "–"
-
-
-def protocol_end(data, end):
-    """The smallest or largest mean shift of φ_J by another compression protocol, over all solids."""
-    ranges = [data.protocol_range(solid) for solid in SOLIDS]
-    return signed(min(low for low, _ in ranges) if end == "least" else max(high for _, high in ranges), 3)
 
 
 def listed(solids):
@@ -59,7 +54,9 @@ def minima(data, which, *sizes):
     return str(sum(one[("whole", "backbone", "all").index(which)] for one in found))
 
 
-VALUES = {"at": estimate, "C": constraints, "range": column_range, "protocol": protocol_end,
+VALUES = {"verdict": verdict.verdict, "place": verdict.place, "single_stress": lambda data, i: str(verdict.single_stress(data)[int(i)]),
+          "exponents": lambda data, column, solid: number(verdict.limit(data, solid, column)["mean"], 2),
+          "at": estimate, "C": constraints, "range": column_range,
           "against_isostatic": against_isostatic, "minima": minima}
 
 

@@ -12,7 +12,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: E402
 
 from data import SOLIDS, Data  # noqa: E402
 from drawing import COLOURS, GRID, MARKERS, SETTINGS, WIDTH, curve, letter, mean_path, save, solid_legend  # noqa: E402
-from comparison import DICE_DENSITY, drawn_size, figures_of  # noqa: E402
+from comparison import DICE_DENSITY, density_changes, drawn_size, figures_of  # noqa: E402
 from tables import structure  # noqa: E402
 
 
@@ -20,7 +20,7 @@ def densities(data, out):
     """φ_J of all packings, beside the paper's values."""
     figure, panels = pyplot.subplots(1, len(SOLIDS), figsize=(WIDTH, 2.6), layout="constrained")
     for axes, solid, name in zip(panels, SOLIDS, "abcd"):
-        below, above = data.protocol_range(solid)
+        below, above = (density_changes(data, solid)[end]["mean"] for end in ("least", "greatest"))
         for place, particles in enumerate((100, 400)):
             values = [r["phi_j"] for r in data.kept(solid, particles)]
             mean = data.phi_j(solid, particles)
@@ -41,7 +41,7 @@ def densities(data, out):
         if abs(dice - middle) < 0.035:
             axes.axhline(dice, color="0.55", linewidth=0.8, linestyle=":")
         axes.set(xlim=(-0.5, 1.5), xticks=(0, 1), xticklabels=("N = 100", "N = 400"),
-                 ylim=(middle - 0.031, middle + 0.017))
+                 ylim=(middle - 0.045, middle + 0.025))
         letter(axes, name, solid)
     panels[0].set_ylabel("jamming density φ$_J$")
     save(figure, out / "densities")

@@ -4,7 +4,9 @@ import functools
 import math
 import statistics
 
-from comparison import (DICE, DICE_DENSITY, STABLE_FROM, drawn_size, figures_of, offset, region_two, uncertainty, within)
+import verdict
+from comparison import (DICE, DICE_DENSITY, STABLE_FROM, density_changes, drawn_size, figures_of, offset, region_two,
+                        uncertainty, within)
 from data import EMERGENCE, LARGE, NEGATIVE, SOLIDS, base_of
 from estimates import NORMAL, difference_of, estimate_of, student
 from limits import limit
@@ -44,27 +46,26 @@ def agreement(data, solid, how):
     return "above" if off > 0 else "below"
 
 
-def verdict(data, solid):
-    fit, trough = (agreement(data, solid, how) for how in ("fit", "trough"))
-    return fit if fit == trough else f"{fit} (by trough: {trough})"
-
-
 def summary(data):
-    return table(["solid", "φ_J", "φ_J, paper", "Z_J", "C by fit", "C against 12"], [
+    heads = [f"{name}, {verdict.place(data)}" for name in ("C by exponents", "m")]
+    return table(["solid", "φ_J", "φ_J, paper", "Z_J", *heads], [
         [solid, interval(data.phi_j(solid, 400)), said(paper_density(solid, 400)),
-         interval(contacts_at_jamming(data, solid, 400)), interval(data.constraints(solid, 400, "fit")),
-         verdict(data, solid)] for solid in SOLIDS])
+         interval(contacts_at_jamming(data, solid, 400)),
+         *(interval(verdict.limit(data, solid, column)) for column in ("C_x", "m_x"))] for solid in SOLIDS])
 
 
-def cutoffs(data):
-    size, rows = drawn_size(data), []
+def change(estimate):
+    return "+" * bool(estimate and estimate["mean"] > 0) + interval(estimate)
+
+
+def changes(data):
+    rows = []
     for solid in SOLIDS:
-        low, high = data.protocol_range(solid)
-        rows.append([solid, *(interval(data.constraints(solid, n, how)) for n, how in (
-            (400, "trough"), (size, "trough"), (size, "fit"))), f"{signed(low, 3)} … {signed(high, 3)}",
-            spread(data.phi_j(solid, 400))])
-    return table(["solid", "C by trough, N = 400", f"C by trough, N = {size}", f"C by fit, N = {size}",
-                  "change of φ_J with other protocols", "single packing"], rows)
+        found = density_changes(data, solid)
+        rows.append([solid, *(change(found[name]) for name in ("energy", "removed", "cycles", "least", "greatest")),
+                     spread(data.phi_j(solid, 400))])
+    return table(["change of φ_J", "target energy 1e-9", "removed cohesion", "four cycles", "lowest", "highest",
+                  "single packing"], rows)
 
 
 def needed_packings(data, figure):
@@ -292,7 +293,8 @@ def large(data):
 
 def cost(data):
     rows, stages = [], {}
-    for name, study in data.studies.items():
+    studies = {name: study for name, study in data.studies.items() if name.startswith("paper-")}
+    for name, study in studies.items():
         for solid in SOLIDS:
             some = [r for r in study["replicates"] if r["solid"] == solid]
             if some:
@@ -302,7 +304,7 @@ def cost(data):
             for r in some:
                 for stage, time in r["stages"].items():
                     stages[stage] = stages.get(stage, 0) + time
-    commits = sorted({commit for study in data.studies.values() for commit in study["git"]})
+    commits = sorted({commit for study in studies.values() for commit in study["git"]})
     total = sum(stages.values())
     return (table(["study", "solid", "replicates", "failed", "CPU time, median, s", "all, minutes"], rows) + "\n" +
             table(["stage", "share of the CPU time, %"], [[f"`{stage}`", number(100 * t / total, 1)] for stage, t in

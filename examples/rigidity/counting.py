@@ -1,10 +1,9 @@
 """Limits of C, of missing and of redundant constraints, and the ranges of Δφ that the page uses."""
 
 import functools
-import math
 
 from data import SOLIDS
-from limits import limit_of_choices
+from limits import extrapolated, limit_of_choices
 
 WINDOWS = ((0, 0.01), (0, 0.02), (0, 0.005))  # of Δφ, for limits
 EDGES = (0.0005, 0.001, 0.002, 0.004, 0.008, 0.016, 0.032, 0.064, 0.128)  # of the ranges of local exponents
@@ -33,10 +32,4 @@ def infinite(data, solid, column):
               if (found := limit_at_jamming(data, solid, n, column)[1]) and found["half_width"]]
     if len(points) < 3 or any(width <= 0 for _, _, width in points):
         return None
-    weights = [width ** -2 for _, _, width in points]
-    total = sum(weights)
-    mean_x = sum(w * x for w, (x, _, _) in zip(weights, points)) / total
-    mean_y = sum(w * y for w, (_, y, _) in zip(weights, points)) / total
-    xx = sum(w * (x - mean_x) ** 2 for w, (x, _, _) in zip(weights, points))
-    slope = sum(w * (x - mean_x) * (y - mean_y) for w, (x, y, _) in zip(weights, points)) / xx
-    return {"mean": mean_y - slope * mean_x, "half_width": math.sqrt(1 / total + mean_x ** 2 / xx), "n": len(points)}
+    return extrapolated(points)

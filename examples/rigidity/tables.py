@@ -38,9 +38,11 @@ def with_range(data, solid, particles, column):
 
 def main_table(data):
     size = drawn_size(data)
-    return table(["nearest jamming", *SOLIDS], [[name, *map(interval, found)] for name, found in (
-        ("C by trough", [data.constraints(s, size, "trough") for s in SOLIDS]),
-        ("C by fit", [data.constraints(s, size, "fit") for s in SOLIDS]),
+    return table([f"nearest jamming, N = {size}", *SOLIDS], [[name, *map(interval, found)] for name, found in (
+        ("C by exponents", [verdict.mean(data, s, size, "C_x") for s in SOLIDS]),
+        *((f"C by {how}{place}", [data.constraints(s, n, how) for s in SOLIDS])
+          for n, place in ((size, ""), (400, ", N = 400")) for how in ("trough", "fit")),
+        ("m by exponents", [verdict.mean(data, s, size, "m_x") for s in SOLIDS]),
         ("m by trough", [data.nearest(s, size, "missing_trough") for s in SOLIDS]),
         ("m by fit", [with_range(data, s, size, "missing") for s in SOLIDS]),
         ("m by normals only", [data.nearest(s, size, "missing_normals") for s in SOLIDS]))])
@@ -186,7 +188,7 @@ def cost(data):
 
 
 TABLES = (
-    ("Constraints by exponents", "The same as Table 1 of the page for each N.", verdict.by_size),
+    ("Constraints by exponents", "Means of the states nearest jamming as in Table 1 of the page.", verdict.by_size),
     ("Troughs in the densities of log θ", """Cut-offs and edges in radians, and the density at the cut-off per particle
      and decade. *Undecided* means that the density has no significant trough. *By fit* is log10 of the mean cut-off of the
      paper's fit, for comparison.""", troughs),

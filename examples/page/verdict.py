@@ -1,0 +1,120 @@
+"""Constraints by exponents in the states nearest jamming: C, missing constraints m and states of self-stress S, and the
+verdict, with which README.md and two pages begin: python3 verdict.py DATA prints it."""
+
+import statistics
+import sys
+
+from data import CONSTRAINTS, PLURALS, SOLIDS, Data
+from estimates import estimate_of
+from limits import extrapolated
+from text import interval, number, significant, table
+
+WITHIN = {"tetrahedron": 1e-3}  # largest Δφ of the states that count, if it is not 3e-4
+MEANT = ("C_x", "m_x", "m_supported")
+FEW = 0.06  # no constraints are missing if m is surely below 1 % of the six motions of a particle
+
+
+def packings(data, solid, particles):
+    """Last states of the packings that means use: {column: value}, with Δφ."""
+    found = []
+    for name in CONSTRAINTS:
+        for r in data.kept_of(name, solid):
+            last = {column: values[-1] for column, values in r["states"].items()}
+            distance = last["phi"] - r["phi_j"]
+            if r["particles"] == particles and last.get("C_x") is not None and distance <= WITHIN.get(solid, 3e-4):
+                found.append({**last, "distance": distance})
+    return found
+
+
+def sizes(data, solid):
+    return [n for n in sorted({r["particles"] for name in CONSTRAINTS for r in data.kept_of(name, solid)})
+            if len(packings(data, solid, n)) > 2]
+
+
+def every(data, solid):
+    """The packings of all sizes."""
+    return [p for n in sizes(data, solid) for p in packings(data, solid, n)]
+
+
+def three_means(data, solid, particles, column):
+    """Means with the central, the lowest and the highest boundaries of the classes."""
+    found = packings(data, solid, particles)
+    return [estimate_of([p.get(f"{column}{end}") for p in found]) for end in ("", "_low", "_high")]
+
+
+def with_range(central, low, high):
+    """An estimate with half of its range over the boundaries of the classes as the systematic error."""
+    return {**central, "systematic": abs(high["mean"] - low["mean"]) / 2} if low and high else central
+
+
+def mean(data, solid, particles, column):
+    return with_range(*three_means(data, solid, particles, column))
+
+
+def place(data):
+    """N of the verdict: the limit, if the sizes differ by a factor of three, or the largest size with all solids."""
+    common = set.intersection(*(set(sizes(data, s)) for s in SOLIDS))
+    return "N → ∞" if max(common) > 3 * min(common) else f"N = {max(common)}"
+
+
+def limit(data, solid, column):
+    """Limit N → ∞: intercept of the means against 1/N, weighted by their intervals, or by their resolution if it is larger. If
+    the sizes do not determine it, the mean at place()."""
+    if place(data) != "N → ∞":
+        return mean(data, solid, int(place(data).split()[-1]), column)
+    found = {n: three_means(data, solid, n, column) for n in sizes(data, solid)}
+    return with_range(*(extrapolated([(1 / n, means[k]["mean"], max(means[0]["half_width"], 1 / n / means[0]["n"]))
+                                      for n, means in found.items()]) for k in range(3)))
+
+
+def error(estimate):
+    return estimate["half_width"] + estimate["systematic"]
+
+
+def call(data, solid):
+    m = limit(data, solid, "m_x")
+    return "missing" if m["mean"] > error(m) else "none" if m["mean"] + error(m) < FEW else "uncertain"
+
+
+SENTENCES = {"missing": "Constraints are missing in packings of {}.",
+             "none": "No constraints are missing in packings of {}.",
+             "uncertain": "Whether constraints are missing in packings of {} is uncertain."}
+
+
+def verdict(data):
+    """Sentences that name each solid, with the limit of m and the sum of its errors."""
+    made = []
+    for key, sentence in SENTENCES.items():
+        names = [f"{PLURALS[s]} ({number(m['mean'], 2)} ± {number(error(m), 2)})" for s in SOLIDS
+                 if call(data, s) == key and (m := limit(data, s, "m_x"))]
+        if names:
+            made.append(sentence.format(" and ".join(filter(None, (", ".join(names[:-1]), names[-1])))))
+    return " ".join(made).replace(" (", " (m = ", 1).replace(")", " per particle)", 1)
+
+
+def single_stress(data, solids=SOLIDS[1:]):
+    """Number of packings with one state of self-stress, and of all packings."""
+    found = [p["self_stress_x"] == 1 for s in solids for p in every(data, s)]
+    return sum(found), len(found)
+
+
+def verdict_table(data):
+    size = max(set.intersection(*(set(sizes(data, s)) for s in SOLIDS)))
+    rows = [(f"{name}, {place(data)}", [interval(limit(data, s, column)) for s in SOLIDS]) for name, column in (("C", "C_x"), ("m", "m_x"))]
+    rows += [] if place(data) != "N → ∞" else [(f"m, N = {n}", [interval(mean(data, s, n, "m_x")) if n in sizes(data, s) else "–" for s in SOLIDS])
+             for n in sorted({n for s in SOLIDS for n in sizes(data, s)})]
+    rows += [(f"m without underconstrained particles, N = {size}",
+              [interval(mean(data, s, size, "m_supported")) for s in SOLIDS]),
+             ("packings with S = 1", ["{} of {}".format(*single_stress(data, [s])) for s in SOLIDS]),
+             ("Δφ, median", [significant(statistics.median(p["distance"] for p in every(data, s)), 2) for s in SOLIDS])]
+    return table(["by exponents", *SOLIDS], [[name, *cells] for name, cells in rows])
+
+
+def by_size(data):
+    return table(["solid, N", "packings", "C", "m", "m without underconstrained particles", "12 − 4/N"],
+                 [[f"{s} {n}", str(len(packings(data, s, n))), *(interval(mean(data, s, n, name)) for name in MEANT),
+                   number(12 - 4 / n, 2)] for s in SOLIDS for n in sizes(data, s)])
+
+
+if __name__ == "__main__":
+    print(verdict(Data(*sys.argv[1:])))
