@@ -75,14 +75,11 @@ CdfFit fit_of(std::span<const double> angles, double upper) {
   return is_resolved(upper) ? fit_cdf(angles, upper) : CdfFit{.verdict = FitVerdict::too_few};
 }
 
-/// Cut-offs from the contacts of several packings together.
-ClassCutoffs cutoffs_of(const CriticalAngles& critical, std::span<const std::vector<Alignment>> packings) {
+ClassCutoffs cutoffs_of(const CriticalAngles& critical, std::span<const Alignment> alignments) {
   std::vector<double> face_face, edge_face;
-  for (const std::vector<Alignment>& alignments : packings) {
-    for (const Alignment& alignment : alignments) {
-      face_face.push_back(alignment.face_face);
-      edge_face.push_back(alignment.edge_face);
-    }
+  for (const Alignment& alignment : alignments) {
+    face_face.push_back(alignment.face_face);
+    edge_face.push_back(alignment.edge_face);
   }
   ClassCutoffs cutoffs;
   cutoffs.critical = critical;
@@ -168,7 +165,7 @@ ContactAnalysis analyse_mixture(const Composition& solids, int particles, std::s
   analysis.classes.resize(contacts.size());
   for (Group& group : groups_of(solids, contacts, alignments)) {
     ShapePair& pair = group.pair;
-    pair.cutoffs = cutoffs_of(critical_angles(*pair.a, *pair.b), std::span(&group.alignments, 1));
+    pair.cutoffs = cutoffs_of(critical_angles(*pair.a, *pair.b), group.alignments);
     const auto classes = classify(group.alignments, pair.cutoffs.face_face.cutoff, pair.cutoffs.edge_face.cutoff);
     for (std::size_t k = 0; k < group.members.size(); ++k) analysis.classes[group.members[k]] = classes[k];
     if (analysis.pairs.empty()) {
@@ -186,25 +183,13 @@ ContactAnalysis analyse_mixture(const Composition& solids, int particles, std::s
 
 }  // namespace
 
-std::vector<ContactAnalysis> analyse_pooled(const ConvexSolid& solid, int particles,
-                                            std::span<const std::vector<Alignment>> packings) {
-  ContactAnalysis common;
-  static_cast<ClassCutoffs&>(common) = cutoffs_of(critical_angles(solid), packings);
-  common.pooled_over = static_cast<int>(packings.size());
-  std::vector<ContactAnalysis> analyses(packings.size(), common);
-  for (std::size_t k = 0; k < packings.size(); ++k) {
-    ContactAnalysis& analysis = analyses[k];
-    const std::vector<Alignment>& alignments = packings[k];
-    analysis.classes = classify(alignments, analysis.face_face.cutoff, analysis.edge_face.cutoff);
-    analysis.numbers = contact_numbers(particles, analysis.classes);
-    analysis.fixed_cutoffs = fixed_cutoff_numbers(particles, alignments);
-  }
-  return analyses;
-}
-
 ContactAnalysis analyse_contacts(const ConvexSolid& solid, int particles, std::span<const Alignment> alignments) {
-  const std::vector<Alignment> own(alignments.begin(), alignments.end());
-  return analyse_pooled(solid, particles, std::span(&own, 1)).front();
+  ContactAnalysis analysis;
+  static_cast<ClassCutoffs&>(analysis) = cutoffs_of(critical_angles(solid), alignments);
+  analysis.classes = classify(alignments, analysis.face_face.cutoff, analysis.edge_face.cutoff);
+  analysis.numbers = contact_numbers(particles, analysis.classes);
+  analysis.fixed_cutoffs = fixed_cutoff_numbers(particles, alignments);
+  return analysis;
 }
 
 ContactAnalysis analyse_contacts(const Composition& solids, int particles, std::span<const Contact> contacts,

@@ -46,8 +46,6 @@ struct ShapePair {
 /// the least conclusive pair, which is one without a cut-off, otherwise one with a doubtful fit, otherwise any.
 struct ContactAnalysis : ClassCutoffs {
   std::vector<ShapePair> pairs;  ///< pairs of shapes that have contacts; empty if there is only one shape
-  /// Number of packings whose angles were combined for the fits; 1 if the angles are those of this packing only.
-  int pooled_over = 1;
   /// class of each contact from the fitted cut-offs, in the order of the contacts
   std::vector<ContactClass> classes;
   ContactNumbers numbers;        ///< contact and constraint numbers from the fitted cut-offs
@@ -71,12 +69,6 @@ ContactAnalysis analyse_contacts(const ConvexSolid& solid, int particles, std::s
 /// the contacts between these two shapes.
 ContactAnalysis analyse_contacts(const Composition& solids, int particles, std::span<const Contact> contacts,
                                  std::span<const Alignment> alignments);
-
-/// Classifies the contacts of several packings with the same number of particles, for example of the replicates of a
-/// sweep point. The fits use the angles of all packings together. The contacts of each packing are then
-/// classified by these common cut-offs. The results are in the order of `packings`.
-std::vector<ContactAnalysis> analyse_pooled(const ConvexSolid& solid, int particles,
-                                            std::span<const std::vector<Alignment>> packings);
 
 /// Numbers with fixed cut-offs instead of fitted ones: the mean over the cut-offs 5°, 15°, …, 55° for both angles, as
 /// in column 2 of the paper's Table III.

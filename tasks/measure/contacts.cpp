@@ -39,7 +39,6 @@ Contacts contact_record(const ContactAnalysis& analysis) {
   record.Q6 = analysis.Q6;
   record.cutoffs = cutoff_records(analysis);
   record.fixed_cutoffs = analysis.fixed_cutoffs;
-  record.pooled_over = analysis.pooled_over;
   for (const auto& numbers : analysis.of_kinds) record.kinds.push_back(known_numbers(numbers, analysis));
   if (!analysis.pairs.empty()) record.shape_pairs.emplace();
   for (const auto& pair : analysis.pairs)

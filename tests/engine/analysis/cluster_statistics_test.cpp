@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdio>
 
 #include "tests/engine/analysis/constructed_clusters.hpp"
@@ -61,33 +60,6 @@ TEST(FractalDimension, OfSheetsAndBlocks) {
   std::printf("sheet %.3f ± %.3f, block %.3f ± %.3f\n", sheet.D, sheet.error, cube.D, cube.error);
   EXPECT_NEAR(sheet.D, 2, 0.06);
   EXPECT_NEAR(cube.D, 3, 0.15);
-}
-
-/// Vicsek's cross in three dimensions. At each level, it consists of seven copies of itself in a block with side 3, so
-/// D = log 7/log 3.
-TEST(FractalDimension, OfASelfSimilarClusterIsExact) {
-  std::vector<Vector3d> centres{Vector3d::Zero()};
-  for (int level = 0, width = 1; level < 3; ++level, width *= 3) {
-    const std::vector<Vector3d> copy = centres;
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const int sign : {-1, 1}) {
-        for (const Vector3d& centre : copy) centres.push_back(centre + sign * width * Vector3d::Unit(axis));
-      }
-    }
-  }
-  Structure cross = at(60, centres);
-  for (std::size_t a = 0; a < centres.size(); ++a) {
-    for (std::size_t b = a + 1; b < centres.size(); ++b) {
-      if ((centres[a] - centres[b]).squaredNorm() < 1.5)
-        cross.bonds.push_back({static_cast<int>(a), static_cast<int>(b), Vector3i::Zero()});
-    }
-  }
-  const ClusterStatistics statistics = statistics_of(cross);
-  EXPECT_EQ(statistics.S, 343);
-  const FractalDimension& dimension = statistics.D_max;
-  std::printf("cross of %zu: %.3f ± %.3f, closed form %.3f\n", centres.size(), dimension.D, dimension.error,
-              std::log(7) / std::log(3));
-  EXPECT_NEAR(dimension.D, std::log(7) / std::log(3), 0.1);
 }
 
 TEST(FractalDimension, IsUndefinedForSmallOrCoincidentClusters) {

@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <stdexcept>
 
 #include "engine/analysis/cluster_statistics.hpp"
 #include "engine/random/stream.hpp"
@@ -42,28 +40,6 @@ Structure random_structure(int particles, int bonds, RandomStream& random) {
     structure.bonds.push_back({a, b, Vector3i(x, y, z)});
   }
   return structure;
-}
-
-TEST(Clusters, OfLoneParticles) {
-  for (const int n : {1, 2, 3, 50}) {
-    const Structure structure = at(60, row(n, 0));
-    const std::vector<Cluster> clusters = clusters_of(structure);
-    ASSERT_EQ(static_cast<int>(clusters.size()), n);
-    for (int k = 0; k < n; ++k) {
-      EXPECT_EQ(clusters[k].label(), k);
-      EXPECT_EQ(clusters[k].size(), 1);
-      EXPECT_EQ(clusters[k].winding_rank(), 0);
-      EXPECT_EQ(clusters[k].longest_extent(), 0);
-      EXPECT_DOUBLE_EQ(clusters[k].body_extent[2].value(), 1) << "a cube of unit side";
-    }
-    const ClusterStatistics statistics = statistics_of(structure);
-    EXPECT_EQ(statistics.S, 1);
-    EXPECT_EQ(statistics.largest, 1);
-    EXPECT_EQ(statistics.longest, 0);
-    EXPECT_EQ(statistics.l_max, 0);
-    EXPECT_FALSE(statistics.spans);
-    EXPECT_EQ(statistics.D_max.verdict, DimensionVerdict::too_small);
-  }
 }
 
 TEST(Clusters, OfAChainThatSpansOrNot) {
@@ -212,80 +188,6 @@ TEST(Clusters, OfRandomBondsAgreeWithASearch) {
     }
   }
   for (const int count : ranks) EXPECT_GT(count, 10) << "the bonds should give clusters of every rank";
-}
-
-TEST(Clusters, DependOnlyOnTheNetwork) {
-  RandomStream random{32};
-  for (int trial = 0; trial < 100; ++trial) {
-    const int n = 30;
-    const Structure structure = random_structure(n, 24, random);
-    std::vector<int> number(n);
-    for (int k = 0; k < n; ++k) number[k] = k;
-    for (int k = n; k > 1; --k) std::swap(number[k - 1], number[random.bits() % static_cast<std::uint64_t>(k)]);
-    Structure other = structure;
-    std::vector<Vector3i> cell(n);
-    for (int k = 0; k < n; ++k) {
-      const auto any = [&] { return static_cast<int>(random.bits() % 5) - 2; };
-      const int x = any(), y = any(), z = any();
-      cell[k] = {x, y, z};
-      other.packing.poses[number[k]].position =
-          structure.packing.poses[k].position + structure.packing.cell.side() * cell[k].cast<double>();
-    }
-    other.bonds.clear();
-    for (const NeighbourPair& bond : structure.bonds) {
-      const Vector3i shift = bond.shift + cell[bond.a] - cell[bond.b];
-      const NeighbourPair there{number[bond.a], number[bond.b], shift}, back{there.b, there.a, -shift};
-      other.bonds.push_back(random.uniform() < 0.5 ? there : back);
-      if (random.uniform() < 0.3) other.bonds.push_back(back);
-    }
-    for (std::size_t k = other.bonds.size(); k > 1; --k) std::swap(other.bonds[k - 1], other.bonds[random.bits() % k]);
-
-    std::map<std::vector<int>, const Cluster*> by_members;
-    const std::vector<Cluster> found = clusters_of(other);
-    for (const Cluster& cluster : found) {
-      EXPECT_TRUE(std::is_sorted(cluster.members.begin(), cluster.members.end()));
-      EXPECT_EQ(cluster.images.front(), Vector3i(Vector3i::Zero())) << "the label stays where it is";
-      by_members[cluster.members] = &cluster;
-    }
-    for (const Cluster& cluster : clusters_of(structure)) {
-      std::vector<int> members;
-      for (const int member : cluster.members) members.push_back(number[member]);
-      std::sort(members.begin(), members.end());
-      ASSERT_TRUE(by_members.contains(members)) << "trial " << trial << ", label " << cluster.label();
-      const Cluster& same = *by_members[members];
-      EXPECT_EQ(same.winding_rank(), cluster.winding_rank());
-      for (int axis = 0; axis < 3; ++axis) {
-        ASSERT_EQ(same.extent[axis].has_value(), cluster.extent[axis].has_value());
-        // Rounding errors of positions up to three cells away, and of paths with n bonds.
-        if (cluster.extent[axis]) {
-          EXPECT_NEAR(*same.extent[axis], *cluster.extent[axis], 4e-16 * n * 5);
-        }
-      }
-    }
-  }
-}
-
-TEST(Clusters, BondsAreTheContactsOfAClass) {
-  std::vector<Contact> contacts(4);
-  for (int k = 0; k < 4; ++k) contacts[k].pair = {k, k + 1, Vector3i(k, 0, 0)};
-  using enum ContactClass;
-  const std::vector<ContactClass> classes{face_face, edge_face, face_face, lower_order};
-  const std::vector<NeighbourPair> bonds = bonds_of(contacts, classes);
-  ASSERT_EQ(bonds.size(), 2U);
-  EXPECT_EQ(bonds[1].a, 2);
-  EXPECT_EQ(bonds[1].shift, Vector3i(2, 0, 0));
-  EXPECT_EQ(bonds_of(contacts, classes, edge_face).front().a, 1);
-  EXPECT_THROW(bonds_of(contacts, std::span(classes).first(3)), std::invalid_argument);
-}
-
-TEST(Clusters, RejectBondsOfUnknownParticles) {
-  Structure structure = at(9, row(3, 0));
-  for (const NeighbourPair& bond : {NeighbourPair{0, 3, {}}, NeighbourPair{-1, 2, {}}}) {
-    structure.bonds = {bond};
-    EXPECT_THROW(clusters_of(structure), std::invalid_argument);
-  }
-  structure.bonds.clear();
-  EXPECT_THROW(cluster_statistics(structure.packing, {}, {}), std::invalid_argument);
 }
 
 }  // namespace

@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -31,20 +29,6 @@ std::vector<Alignment> random_alignments(int n, RandomStream& random) {
   return all;
 }
 
-TEST(Classes, FollowTheCutoffs) {
-  const std::vector<Alignment> all{angles(0.01, 0.01), angles(0.01, 0.9), angles(0.1, 0.01),
-                                   angles(0.2, 0.01),  angles(0.2, 0.3),  angles(0.1, 0.3)};
-  const std::vector<ContactClass> expected{ContactClass::face_face,   ContactClass::face_face,
-                                           ContactClass::edge_face,   ContactClass::edge_face,
-                                           ContactClass::lower_order, ContactClass::lower_order};
-  EXPECT_EQ(classify(all, 0.1, 0.3), expected);
-  const std::vector<ContactClass> none(all.size(), ContactClass::lower_order);
-  EXPECT_EQ(classify(all, 0, 0), none);
-  EXPECT_EQ(to_string(ContactClass::face_face), "face_face");
-  EXPECT_EQ(to_string(ContactClass::edge_face), "edge_face");
-  EXPECT_EQ(to_string(ContactClass::lower_order), "lower_order");
-}
-
 TEST(Numbers, CountEachContactForTwoParticles) {
   using enum ContactClass;
   const std::vector<ContactClass> classes{face_face, edge_face, edge_face, lower_order, lower_order, lower_order};
@@ -58,26 +42,6 @@ TEST(Numbers, CountEachContactForTwoParticles) {
   EXPECT_EQ(none.Z, 0);
   EXPECT_EQ(none.C, 0);
   EXPECT_THROW(contact_numbers(0, classes), std::invalid_argument);
-}
-
-TEST(Numbers, AddUpAndGrowWithTheCutoffs) {
-  RandomStream random{13};
-  for (int trial = 0; trial < 50; ++trial) {
-    const int contacts = 1 + static_cast<int>(500 * random.uniform());
-    const int particles = 1 + static_cast<int>(200 * random.uniform());
-    const std::vector<Alignment> all = random_alignments(contacts, random);
-    double constraints = 0;
-    for (const double cutoff : {0.0, 0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 1.0}) {
-      const ContactNumbers numbers = contact_numbers(particles, classify(all, cutoff, cutoff));
-      const double slack = 8 * std::numeric_limits<double>::epsilon() * numbers.C;
-      EXPECT_NEAR(numbers.Z * particles, 2 * contacts, slack * particles);
-      EXPECT_NEAR(numbers.Z, numbers.Z_ff + numbers.Z_ef + numbers.Z_l, slack);
-      EXPECT_NEAR(numbers.C, 3 * numbers.Z_ff + 2 * numbers.Z_ef + numbers.Z_l, slack);
-      EXPECT_GE(numbers.C, constraints) << "cut-off " << cutoff;
-      constraints = numbers.C;
-    }
-    EXPECT_NEAR(constraints, 6.0 * contacts / particles, 1e-12 * constraints) << "all face-face: C = 3 Z";
-  }
 }
 
 class ContactsOf : public testing::TestWithParam<SolidKind> {
@@ -161,28 +125,6 @@ TEST_P(ContactsOf, TopologiesAreRecognised) {
   EXPECT_NEAR(analysis.numbers.C, 1.4 * Z, (2 * ff_noise + ef_noise) * Z);
 }
 
-TEST_P(ContactsOf, EachAngleIsFittedOnHalfOfItsOwnCriticalAngle) {
-  const std::vector<Alignment> all = alignments(solid, mixture(300));
-  std::vector<double> face_face, edge_face;
-  for (const Alignment& alignment : all) {
-    face_face.push_back(alignment.face_face);
-    edge_face.push_back(alignment.edge_face);
-  }
-  const ContactAnalysis analysis = analyse_contacts(solid, 50, all);
-  EXPECT_EQ(analysis.face_face.error, fit_cdf(face_face, critical.ff_min() / 2).error);
-  EXPECT_EQ(analysis.edge_face.error, fit_cdf(edge_face, critical.ef_min() / 2).error);
-}
-
-TEST_P(ContactsOf, OrderDoesNotMatter) {
-  const std::vector<Alignment> all = alignments(solid, mixture(300));
-  std::vector<Alignment> reversed(all.rbegin(), all.rend());
-  ContactAnalysis there = analyse_contacts(solid, 50, all), back = analyse_contacts(solid, 50, reversed);
-  std::reverse(back.classes.begin(), back.classes.end());
-  EXPECT_EQ(there.classes, back.classes);
-  EXPECT_EQ(there.numbers.C, back.numbers.C);
-  EXPECT_EQ(there.face_face.cutoff, back.face_face.cutoff);
-}
-
 TEST_P(ContactsOf, CollapsedAndEmptyFitsLeaveTheirClassEmpty) {
   // θ_ff is evenly spread, so there is no jump. All θ_ef are above the window, so there are no angles to fit.
   std::vector<Alignment> all;
@@ -214,29 +156,6 @@ TEST_P(ContactsOf, FixedCutoffsCountMoreConstraints) {
   EXPECT_GT(analysis.fixed_cutoffs.C, 1.3 * analysis.numbers.C);
 }
 
-TEST_P(ContactsOf, APoolIsFittedOnceAndClassifiedOneByOne) {
-  std::vector<std::vector<Alignment>> packings;
-  std::vector<Alignment> together;
-  for (const int n : {150, 300, 40, 0}) {
-    packings.push_back(alignments(solid, mixture(n)));
-    together.insert(together.end(), packings.back().begin(), packings.back().end());
-  }
-  const std::vector<ContactAnalysis> pooled = analyse_pooled(solid, 50, packings);
-  const ContactAnalysis one = analyse_contacts(solid, 50, together);
-  EXPECT_EQ(one.pooled_over, 1);
-  ASSERT_EQ(pooled.size(), packings.size());
-  std::vector<ContactClass> classes;
-  for (std::size_t k = 0; k < pooled.size(); ++k) {
-    EXPECT_EQ(pooled[k].pooled_over, 4);
-    EXPECT_EQ(pooled[k].face_face.cutoff, one.face_face.cutoff);
-    EXPECT_EQ(pooled[k].edge_face.cutoff, one.edge_face.cutoff);
-    EXPECT_EQ(pooled[k].numbers.Z, 2.0 * static_cast<double>(packings[k].size()) / 50);
-    classes.insert(classes.end(), pooled[k].classes.begin(), pooled[k].classes.end());
-  }
-  EXPECT_EQ(classes, one.classes);
-  EXPECT_TRUE(analyse_pooled(solid, 50, {}).empty());
-}
-
 TEST(Contacts, OfASolidWithFacesNearlyInOnePlaneHaveNoClasses) {
   RandomStream random{17};
   const std::vector<Alignment> alignments = random_alignments(200, random);
@@ -251,18 +170,6 @@ TEST(Contacts, OfASolidWithFacesNearlyInOnePlaneHaveNoClasses) {
     EXPECT_EQ(analysis.numbers.Z, 8) << height;
     EXPECT_EQ(analysis.fixed_cutoffs.C, fixed_cutoff_numbers(50, alignments).C) << height;
   }
-}
-
-TEST_P(ContactsOf, FewOrPerfectContactsHaveDefinedResults) {
-  for (const int contacts : {0, 1}) {
-    const ContactAnalysis analysis = analyse_contacts(solid, 3, std::vector<Alignment>(contacts, angles(0, 0)));
-    EXPECT_EQ(analysis.face_face.verdict, FitVerdict::too_few);
-    EXPECT_EQ(analysis.numbers.C, 2.0 * contacts / 3);
-  }
-  const ContactAnalysis crystal = analyse_contacts(solid, 10, std::vector<Alignment>(30, angles(0, 0)));
-  EXPECT_EQ(crystal.face_face.verdict, FitVerdict::fitted);
-  EXPECT_EQ(crystal.numbers.Z_ff, 6);
-  EXPECT_EQ(crystal.numbers.C, 18);
 }
 
 INSTANTIATE_TEST_SUITE_P(Solids, ContactsOf, testing::ValuesIn(all_solids),

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/analysis/alignment/random_alignment.hpp"
 #include "engine/analysis/cluster_statistics.hpp"
@@ -48,44 +47,6 @@ TEST(JammedPacking, IsJammed) {
   ASSERT_GE(jammed().states.size(), 2U);
 }
 
-TEST(JammedPacking, CriticalAnglesBoundItsContacts) {
-  const CriticalAngles critical = critical_angles(solid());
-  constexpr int valence = 4;
-  double vf_ff = 0, vf_ef = 0, ee_ff = 0, ee_ef = 0;
-  int vertex_face = 0, edge_edge = 0;
-  for (const Packing& state : jammed().states) {
-    for (const Contact& contact : contacts_of(state)) {
-      const Overlap& o = contact.overlap;
-      const int edges_a = o.edges_a.count(), edges_b = o.edges_b.count();
-      const int faces_a = o.faces_a.count(), faces_b = o.faces_b.count();
-      const Alignment found = alignment(solid(), contact);
-      if (std::max(edges_a, edges_b) == valence && std::min(edges_a, edges_b) == 0 &&
-          faces_a + faces_b == valence + 1) {
-        ++vertex_face;
-        vf_ff = std::max(vf_ff, found.face_face);
-        vf_ef = std::max(vf_ef, found.edge_face);
-      } else if (edges_a == 1 && edges_b == 1 && faces_a == 2 && faces_b == 2) {
-        ++edge_edge;
-        ee_ff = std::max(ee_ff, found.face_face);
-        ee_ef = std::max(ee_ef, found.edge_face);
-      }
-    }
-  }
-  const double degree = std::acos(-1) / 180;
-  std::printf(
-      "%d vertex-face: θ_ef %.1f of %.1f, θ_ff %.1f of %.1f; %d edge-edge: θ_ef %.1f of %.1f, θ_ff %.1f of %.1f\n",
-      vertex_face, vf_ef / degree, critical.ef_vertex_face / degree, vf_ff / degree, critical.ff_vertex_face / degree,
-      edge_edge, ee_ef / degree, critical.ef_edge_edge / degree, ee_ff / degree, critical.ff_edge_edge / degree);
-  EXPECT_GT(vertex_face, 50);
-  EXPECT_GT(edge_edge, 50);
-  EXPECT_LE(vf_ff, critical.ff_vertex_face);
-  EXPECT_LE(vf_ef, critical.ef_vertex_face);
-  EXPECT_LE(ee_ff, critical.ff_edge_edge);
-  EXPECT_LE(ee_ef, critical.ef_edge_edge);
-  EXPECT_GT(vf_ff, 0.8 * critical.ff_vertex_face);
-  EXPECT_GT(ee_ff, 0.8 * critical.ff_edge_edge);
-}
-
 TEST(JammedPacking, MethodsAgreeWhereTheyShould) {
   const std::vector<Alignment> all = alignments(solid(), contacts_of(nearest()));
   const ContactAnalysis analysis = analyse_contacts(solid(), particles, all);
@@ -95,43 +56,6 @@ TEST(JammedPacking, MethodsAgreeWhereTheyShould) {
   ASSERT_EQ(analysis.face_face.verdict, FitVerdict::fitted);
   EXPECT_GT(analysis.fixed_cutoffs.C, 1.3 * analysis.numbers.C);
   EXPECT_NEAR(analysis.numbers.C, 12, 1.5);
-}
-
-TEST(JammedPacking, PoolHasOneCutOffForAllItsStates) {
-  std::vector<std::vector<Alignment>> pool;
-  std::vector<double> face_face, edge_face;
-  for (const Packing& state : jammed().states) {
-    pool.push_back(alignments(solid(), contacts_of(state)));
-    for (const Alignment& angles : pool.back()) {
-      face_face.push_back(angles.face_face);
-      edge_face.push_back(angles.edge_face);
-    }
-  }
-  const CriticalAngles critical = critical_angles(solid());
-  const double ff_cutoff = fit_cdf(face_face, critical.ff_min() / 2).cutoff;
-  const double ef_cutoff = fit_cdf(edge_face, critical.ef_min() / 2).cutoff;
-  std::printf("%zu contacts of %zu states: θ_ff below %.2e, θ_ef below %.2e\n", face_face.size(), pool.size(),
-              ff_cutoff, ef_cutoff);
-  ASSERT_GT(ff_cutoff, 0);
-  ASSERT_GT(ef_cutoff, 0);
-  const std::vector<ContactAnalysis> pooled = analyse_pooled(solid(), particles, pool);
-  ASSERT_EQ(pooled.size(), pool.size());
-  for (std::size_t k = 0; k < pool.size(); ++k) {
-    EXPECT_EQ(pooled[k].pooled_over, static_cast<int>(pool.size()));
-    EXPECT_EQ(pooled[k].face_face.cutoff, ff_cutoff);
-    EXPECT_EQ(pooled[k].edge_face.cutoff, ef_cutoff);
-    long flat = 0, on_edge = 0;
-    for (const Alignment& angles : pool[k]) {
-      flat += angles.face_face < ff_cutoff;
-      on_edge += angles.face_face >= ff_cutoff && angles.edge_face < ef_cutoff;
-    }
-    const long all = PackingEnergy().evaluate(jammed().states[k]).contacts;
-    const auto contacts_in = [](double per_particle) { return std::lround(per_particle * particles / 2); };
-    EXPECT_EQ(contacts_in(pooled[k].numbers.Z_ff), flat) << "state " << k;
-    EXPECT_EQ(contacts_in(pooled[k].numbers.Z_ef), on_edge) << "state " << k;
-    EXPECT_EQ(contacts_in(pooled[k].numbers.Z_l), all - flat - on_edge) << "state " << k;
-    EXPECT_EQ(contacts_in(pooled[k].numbers.Z), all) << "state " << k;
-  }
 }
 
 TEST(JammedPacking, EdgesLieInFacesMoreOftenThanByChance) {

@@ -2,8 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "engine/analysis/contacts.hpp"
 #include "engine/analysis/orientation_order.hpp"
@@ -105,44 +103,6 @@ TEST(MixtureContacts, OfKindsSumToThoseOfAll) {
   EXPECT_NEAR(mean.Z_l, analysis.numbers.Z_l, 1e-12);
 }
 
-/// Half of π minus the largest dihedral angle.
-double half_opening(const ConvexSolid& solid) {
-  double least = std::numbers::pi;
-  for (const Edge& edge : solid.edges()) {
-    const Vector3d& n = solid.faces()[static_cast<std::size_t>(edge.left)].normal;
-    const Vector3d& m = solid.faces()[static_cast<std::size_t>(edge.right)].normal;
-    least = std::min(least, std::atan2(n.cross(m).norm(), n.dot(m)) / 2);
-  }
-  return least;
-}
-
-/// The largest θ_ff that two crossed edges allow, over the angle between the edges and rotations of both about
-/// themselves. A is below, its normals are at the angle α on either side of the vertical; B is above.
-double searched_crossing(double alpha, double beta) {
-  constexpr int steps = 40;
-  double best = 0;
-  for (int s = 1; s <= steps; ++s) {
-    const double between = std::numbers::pi / 2 * s / steps;
-    for (int i = -steps; i <= steps; ++i) {
-      for (int j = -steps; j <= steps; ++j) {
-        const double turn_a = alpha * i / steps, turn_b = beta * j / steps;
-        double least = std::numbers::pi;
-        for (const int p : {-1, 1}) {
-          for (const int q : {-1, 1}) {
-            const double a = turn_a + p * alpha, b = turn_b + q * beta;
-            const Vector3d n(0, std::sin(a), std::cos(a));  // the edge of A is along x
-            const Vector3d m =
-                -Vector3d(-std::sin(between) * std::sin(b), std::cos(between) * std::sin(b), std::cos(b));
-            least = std::min(least, std::atan2(n.cross(m).norm(), -n.dot(m)));
-          }
-        }
-        best = std::max(best, least);
-      }
-    }
-  }
-  return best;
-}
-
 TEST(MixtureContacts, HaveTheCriticalAnglesOfTwoShapes) {
   for (const SolidKind kind : all_solids) {
     const ConvexSolid& a = platonic(kind);
@@ -155,8 +115,6 @@ TEST(MixtureContacts, HaveTheCriticalAnglesOfTwoShapes) {
       EXPECT_EQ(there.ef_min(), back.ef_min());
       EXPECT_EQ(there.ef_min(), std::min(critical_angles(a).ef_min(), critical_angles(b).ef_min()));
       EXPECT_EQ(there.ff_min(), std::min(critical_angles(a).ff_min(), critical_angles(b).ff_min()));
-      const double found = searched_crossing(half_opening(a), half_opening(b));
-      EXPECT_NEAR(there.ff_edge_edge, found, 1e-12) << to_string(kind) << ' ' << to_string(other);
     }
   }
 }

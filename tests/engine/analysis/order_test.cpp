@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -27,8 +26,6 @@ Bonds face_centred() {
   return bonds;
 }
 
-Eigen::Vector3d random_vector(RandomStream& random) { return {random.normal(), random.normal(), random.normal()}; }
-
 TEST(SteinhardtOrder, OfKnownShells) {
   const Bonds cubic{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   EXPECT_NEAR(steinhardt_order(cubic, 4), std::sqrt(7.0 / 12), 1e-14);
@@ -44,32 +41,6 @@ TEST(SteinhardtOrder, OfParallelBondsAndOfNone) {
   const Bonds parallel{{1, 2, 3}, {-2, -4, -6}, {0.1, 0.2, 0.3}};
   EXPECT_NEAR(steinhardt_order(parallel, 6), 1, 1e-14);
   EXPECT_EQ(steinhardt_order(Bonds{}, 6), 0);
-}
-
-TEST(SteinhardtOrder, DependsOnlyOnDirections) {
-  RandomStream random{3, 1};
-  Bonds bonds;
-  for (int k = 0; k < 40; ++k) bonds.push_back(random_vector(random));
-  const double value = steinhardt_order(bonds, 6);
-  const Eigen::Quaterniond turn = Eigen::Quaterniond(0.3, 0.5, -0.2, 0.9).normalized();
-  Bonds changed;
-  for (const Eigen::Vector3d& bond : bonds) changed.push_back((1 + random.uniform()) * (turn * bond));
-  std::reverse(changed.begin(), changed.end());
-  EXPECT_NEAR(steinhardt_order(changed, 6), value, 1e-13);
-}
-
-TEST(SteinhardtOrder, OfIndependentBondsIsOneOverTheRoot) {
-  RandomStream random{3, 2};
-  double sum = 0;
-  constexpr int sets = 50, n = 200;
-  for (int set = 0; set < sets; ++set) {
-    Bonds bonds;
-    for (int k = 0; k < n; ++k) bonds.push_back(random_vector(random));
-    const double q = steinhardt_order(bonds, 6);
-    sum += q * q;
-  }
-  // n Q² of a set has mean 1 and variance 2/13.
-  EXPECT_NEAR(sum / sets * n, 1, 5 * std::sqrt(2.0 / 13 / sets));
 }
 
 }  // namespace

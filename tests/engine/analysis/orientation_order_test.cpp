@@ -101,22 +101,6 @@ TEST_P(OrientationOf, SymmetriesKeepParticlesAligned) {
   EXPECT_NEAR(orientation_order(harmonics), std::sqrt((1 + q) / 2), 1e-12);
 }
 
-TEST_P(OrientationOf, IndependentOrientationsGiveOneOverTheRoot) {
-  constexpr int sets = 200, n = 30;
-  double sum = 0;
-  for (int set = 0; set < sets; ++set) sum += std::pow(order_of(scattered(solid, n, 10, random)), 2) * n;
-  // N S² is a mean of 2l + 1 squares of almost normal components, so its variance is 2/(2l + 1).
-  EXPECT_NEAR(sum / sets, 1, 5 * std::sqrt(2.0 / (2 * rank + 1) / sets));
-}
-
-TEST_P(OrientationOf, RotatingAllChangesNothing) {
-  Packing packing = scattered(solid, 20, 10, random);
-  const double before = order_of(packing);
-  const Quaterniond turn = random_orientation(random);
-  for (Pose& pose : packing.poses) pose.orientation = turn * pose.orientation;
-  EXPECT_NEAR(order_of(packing), before, 1e-12);
-}
-
 /// The orientation `q` followed by rotations about three axes by angles with this standard deviation.
 Quaterniond disturbed(const Quaterniond& q, double deviation, RandomStream& random) {
   // A uniform number in (−√3, √3) has the variance 1.
@@ -179,22 +163,6 @@ TEST_P(OrientationOf, LimitsSeparateRandomOrientationsFromCrystals) {
   }
 }
 
-TEST_P(OrientationOf, FewParticlesHaveDefinedResults) {
-  for (const int n : {1, 2, 3}) {
-    const Packing packing = scattered(solid, n, 10, random);
-    const Order order = order_of(packing, {});
-    EXPECT_EQ(order.Q6, 0);
-    EXPECT_FALSE(order.local_Q4);
-    EXPECT_FALSE(order.local_Q6);
-    EXPECT_EQ(order.rank, rank);
-    EXPECT_LE(order.S.value(), 1 + 1e-12);
-    EXPECT_EQ(order.random_S, 1 / std::sqrt(n));
-    if (n == 1) {
-      EXPECT_NEAR(order.S.value(), 1, 1e-12);
-    }
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Solids, OrientationOf, testing::ValuesIn(all_solids),
                          [](const auto& solid) { return std::string(to_string(solid.param)); });
 
@@ -202,24 +170,6 @@ TEST(OrientationOrder, OfABoxIsNematic) {
   std::vector<Vector3d> box;
   for (int k = 0; k < 8; ++k) box.emplace_back(k & 1 ? 1 : -1, k & 2 ? 2 : -2, k & 4 ? 3 : -3);
   EXPECT_EQ(orientation_rank(ConvexSolid("box", box)), 2U);
-}
-
-TEST(OrientationOrder, OfCubesIsThatOfTheirAxes) {
-  RandomStream random{62};
-  const Packing packing = scattered(platonic(SolidKind::cube), 25, 10, random);
-  double sum = 0, self = 0;
-  for (const Pose& p : packing.poses) {
-    for (const Pose& q : packing.poses) {
-      for (int a = 0; a < 3; ++a) {
-        for (int b = 0; b < 3; ++b) {
-          const double cosine = (p.orientation * Vector3d::Unit(a)).dot(q.orientation * Vector3d::Unit(b));
-          sum += std::legendre(4, std::clamp(cosine, -1.0, 1.0));
-          self += std::legendre(4, a == b ? 1.0 : 0.0);
-        }
-      }
-    }
-  }
-  EXPECT_NEAR(order_of(packing), std::sqrt(sum / self), 1e-12);
 }
 
 /// n³ cubes at distance 1 that fill the cell. Each touches its six neighbours.

@@ -51,17 +51,6 @@ TEST(PairDistribution, HasThePeaksOfALattice) {
   EXPECT_EQ(pair_distribution(lattice(spacing), width, 2).size(), 20U);
 }
 
-TEST(PairDistribution, OfIndependentPositionsIsOne) {
-  RandomStream random({3, 1});
-  const Packing packing = random_packing(platonic(SolidKind::cube), 2000, 0.2, random);
-  const auto g = pair_distribution(packing, 0.5, 10);
-  ASSERT_EQ(g.size(), 20U);
-  for (std::size_t k = 2; k < g.size(); ++k) {
-    const double pairs = 2000.0 / 2 * 0.2 * shell(0.5 * static_cast<double>(k), 0.5);
-    EXPECT_NEAR(g[k], 1999.0 / 2000, 5 / std::sqrt(pairs)) << k;
-  }
-}
-
 TEST(PairDistribution, AgreesWithASearchOverImagesInASkewCell) {
   RandomStream random({5, 1});
   DoubleDoubleMatrix shear;

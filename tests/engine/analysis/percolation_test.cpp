@@ -37,22 +37,6 @@ TEST(Percolation, OfConstructedClusters) {
   EXPECT_EQ(whole.S, 27);
 }
 
-TEST(Percolation, AgreesWithClusterStatistics) {
-  Structure lattice = block({4, 4, 4}, {true, true, true}, 4);
-  RandomStream random{3};
-  std::erase_if(lattice.bonds, [&](const NeighbourPair&) { return random.uniform() < 0.7; });
-  const ClusterStatistics statistics = statistics_of(lattice);
-  const Percolation found = percolation(lattice.packing, lattice.bonds);
-  std::printf("S %.3f, largest %d, winding rank %d\n", found.S, statistics.largest, found.winding_rank);
-  EXPECT_GT(found.S, 1);
-  EXPECT_DOUBLE_EQ(found.S, statistics.S);
-  EXPECT_DOUBLE_EQ(found.largest, statistics.largest / 64.0);
-  EXPECT_EQ(found.winding_rank, statistics.winding_rank);
-  int particles = 0;
-  for (const auto& [size, clusters] : found.sizes) particles += size * clusters;
-  EXPECT_EQ(particles, 64);
-}
-
 TEST(RandomPercolation, HasTheExtremeCases) {
   const Structure lattice = block({3, 3, 3}, {true, true, true}, 3);
   const RandomPercolation none = drawn(lattice, 0, 5), all = drawn(lattice, lattice.bonds.size(), 5);

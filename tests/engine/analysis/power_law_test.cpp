@@ -47,17 +47,6 @@ TEST(PowerLawTest, NinetyFivePercentOfTheIntervalsContainTheExponent) {
   EXPECT_NEAR(held / static_cast<double>(trials), 0.95, 3 * std::sqrt(0.95 * 0.05 / trials));
 }
 
-TEST(PowerLawTest, ThreePointsByHand) {
-  // ln x = 0, 1, 2 and ln y = 0, 1, 4 give the slope 2 and the residuals 1/3, −2/3, 1/3. The sum of their squares is
-  // 2/3, and is divided by Sxx = 2.
-  const std::vector<double> x{1, std::exp(1), std::exp(2)}, y{1, std::exp(1), std::exp(4)};
-  const auto law = fit_power_law(x, y);
-  ASSERT_TRUE(law);
-  EXPECT_NEAR(law->exponent, 2, 1e-14);
-  EXPECT_NEAR(law->standard_error, std::sqrt(1.0 / 3), 1e-14);
-  EXPECT_NEAR(law->ci95_half_width, 12.706204736 * std::sqrt(1.0 / 3), 1e-8);
-}
-
 TEST(PowerLawTest, IgnoresPointsThatAreNotPositive) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   const std::vector<double> x{1, 2, -1, 0, 3, nan, inf}, y{1, 4, 1, 1, -2, 1, 1};

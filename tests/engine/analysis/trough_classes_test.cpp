@@ -116,25 +116,5 @@ TEST(TroughClasses, AreThoseOfSyntheticContacts) {
   EXPECT_FALSE(cutoffs.has_all());
 }
 
-TEST(TroughClasses, ArePooledOverPackings) {
-  RandomStream random{64};
-  AngleHistogram total;
-  total.face_face_window = total.edge_face_window = angle_bins;
-  int undecided = 0;
-  std::vector<AngleHistogram> packings;
-  for (int packing = 0; packing < 20; ++packing) {
-    packings.push_back(angle_histogram(synthetic(2, 3, 40, random), ff_upper, ef_upper));
-    undecided += !trough_cutoffs(packings.back()).has_all();
-    total.add(packings.back());
-  }
-  EXPECT_EQ(undecided, 20);
-  const TroughCutoffs cutoffs = trough_cutoffs(total);
-  ASSERT_TRUE(cutoffs.has_all());
-  double C = 0;
-  for (const AngleHistogram& packing : packings) C += trough_numbers(packing, 10, cutoffs).numbers.C / 20;
-  EXPECT_NEAR(C, trough_numbers(total, 200, cutoffs).numbers.C, 1e-12);
-  EXPECT_NEAR(C, 9 + 2 * 0.4 + 0.6, 0.2);
-}
-
 }  // namespace
 }  // namespace isojam

@@ -19,7 +19,6 @@ using constructed::face_and_edges_site;
 using constructed::face_site;
 using constructed::overlapped;
 using constructed::random_direction;
-using constructed::random_orientation;
 using constructed::Site;
 using constructed::vertex_site;
 using Eigen::Vector3d;
@@ -70,19 +69,6 @@ class AlignmentOf : public testing::TestWithParam<SolidKind> {
     if (kind == 1) return edge_site(solid, pick(random, solid.edges().size()));
     if (kind == 2) return face_site(solid, pick(random, solid.faces().size()));
     return face_and_edges_site(solid, pick(random, solid.faces().size()));
-  }
-
-  Contact posed(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b, const Vector3d& lab) const {
-    return overlapped(solid, {.pair = {}, .displacement = lab, .pose = relative_pose(a, b, lab), .overlap = {}});
-  }
-
-  /// Two solids with random orientations, at a distance at which they overlap.
-  Contact random_overlap() {
-    while (true) {
-      const Vector3d lab = random_direction(random) * (2 * solid.circumradius() * random.uniform());
-      const Contact c = posed(random_orientation(random), random_orientation(random), lab);
-      if (c.overlap.touching()) return c;
-    }
   }
 };
 
@@ -143,19 +129,6 @@ TEST_P(AlignmentOf, CrossedEdgesGiveTheClosedFormAtAnyAngle) {
   }
 }
 
-TEST_P(AlignmentOf, EdgeInFaceGivesTheSlopeOfTheNearerFace) {
-  const double steepest = pi / 2 - dihedral(solid) / 2;
-  for (int trial = 0; trial < 40; ++trial) {
-    const int edge = pick(random, solid.edges().size());
-    const Site a = edge_site(solid, edge), b = face_site(solid, pick(random, solid.faces().size()));
-    const double tilt = steepest * (2 * random.uniform() - 1);
-    const Alignment found =
-        alignment(solid, contact(a, b, 2 * pi * random.uniform(), tilt * direction(solid, edge), depth));
-    EXPECT_NEAR(found.face_face, steepest - std::abs(tilt), rounding) << "tilt " << tilt;
-    EXPECT_NEAR(found.edge_face, 0, rounding) << "tilt " << tilt;
-  }
-}
-
 TEST_P(AlignmentOf, EngineFindsOverlappingFaces) {
   for (double tilt = 1e-10; tilt < 2e-4; tilt *= 10) {
     const int face_a = pick(random, solid.faces().size()), face_b = pick(random, solid.faces().size());
@@ -168,31 +141,6 @@ TEST_P(AlignmentOf, EngineFindsOverlappingFaces) {
     EXPECT_EQ(found.face_b, face_b);
     EXPECT_NEAR(found.face_face, tilt, rounding) << "tilt " << tilt;
     EXPECT_LE(found.edge_face, tilt + rounding) << "edges of a face deviate less than the face";
-  }
-}
-
-TEST_P(AlignmentOf, ExchangeOfTheBodiesChangesNothing) {
-  for (int trial = 0; trial < 100; ++trial) {
-    const Contact c = random_overlap();
-    const Alignment there = alignment(solid, c), back = alignment(solid, constructed::exchanged(c));
-    EXPECT_NEAR(there.face_face, back.face_face, rounding);
-    EXPECT_NEAR(there.edge_face, back.edge_face, rounding);
-    // The engine finds the same contact with A and B exchanged.
-    const Alignment again = alignment(solid, overlapped(solid, constructed::exchanged(c)));
-    EXPECT_NEAR(there.face_face, again.face_face, rounding);
-    EXPECT_NEAR(there.edge_face, again.edge_face, rounding);
-  }
-}
-
-TEST_P(AlignmentOf, RotationOfBothBodiesChangesNothing) {
-  for (int trial = 0; trial < 100; ++trial) {
-    const Eigen::Quaterniond a = random_orientation(random), b = random_orientation(random);
-    const Vector3d lab = random_direction(random) * solid.inradius();
-    const Eigen::Quaterniond turn = random_orientation(random);
-    const Alignment first = alignment(solid, posed(a, b, lab));
-    const Alignment second = alignment(solid, posed(turn * a, turn * b, turn * lab));
-    EXPECT_NEAR(first.face_face, second.face_face, 2 * rounding);
-    EXPECT_NEAR(first.edge_face, second.edge_face, 2 * rounding);
   }
 }
 
@@ -245,17 +193,6 @@ TEST_P(AlignmentOf, MissingFeaturesGiveTheLargestAngles) {
   c.overlap.faces_b = 0;
   EXPECT_EQ(alignment(solid, c).face_face, pi);
   EXPECT_EQ(alignment(solid, c).face_a, -1);
-}
-
-TEST_P(AlignmentOf, AlignmentsOfManyContactsAreThoseOfSingleContacts) {
-  std::vector<Contact> contacts;
-  for (int k = 0; k < 10; ++k) contacts.push_back(random_overlap());
-  const std::vector<Alignment> all = alignments(solid, contacts);
-  ASSERT_EQ(all.size(), contacts.size());
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    EXPECT_EQ(all[k].face_face, alignment(solid, contacts[k]).face_face);
-    EXPECT_EQ(all[k].edge_face, alignment(solid, contacts[k]).edge_face);
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Solids, AlignmentOf, testing::ValuesIn(all_solids),

@@ -2,25 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <limits>
 #include <numbers>
 #include <vector>
 
-#include "engine/analysis/alignment/alignment.hpp"
 #include "engine/geometry/solids/solid.hpp"
-#include "tests/engine/analysis/constructed_contacts.hpp"
 
 namespace isojam {
 namespace {
 
-using constructed::Site;
 using Eigen::Vector3d;
 using std::numbers::pi;
 
@@ -28,26 +22,6 @@ constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 
 std::array<double, 5> as_array(const CriticalAngles& c) {
   return {c.ef_vertex_face, c.ef_edge_edge, c.ff_vertex_face, c.ff_edge_edge, c.ff_edge_face};
-}
-
-TEST(CriticalAngles, AreThoseOfTableTwo) {
-  const std::vector<std::pair<SolidKind, std::array<double, 5>>> table{
-      {SolidKind::tetrahedron, {54.7, 54.7, 70.5, 70.5, 54.7}},
-      {SolidKind::cube, {35.3, 45.0, 54.7, 60.0, 45.0}},
-      {SolidKind::octahedron, {45.0, 35.3, 54.7, 48.2, 35.3}},
-      {SolidKind::dodecahedron, {20.9, 31.7, 37.4, 43.6, 31.7}},
-      {SolidKind::icosahedron, {31.7, 20.9, 37.4, 29.2, 20.9}}};
-  for (const auto& [kind, degrees] : table) {
-    const CriticalAngles critical = critical_angles(platonic(kind));
-    const std::array<double, 5> found = as_array(critical);
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      const double tenths = found[k] * 1800 / pi;
-      EXPECT_EQ(std::lround(tenths), std::lround(degrees[k] * 10))
-          << to_string(kind) << " column " << k << ": " << tenths / 10;
-    }
-    EXPECT_EQ(critical.ef_min(), std::min(found[0], found[1]));
-    EXPECT_EQ(critical.ff_min(), std::min({found[2], found[3], found[4]}));
-  }
 }
 
 struct Schlafli {
@@ -73,136 +47,13 @@ TEST(CriticalAngles, AgreeWithClosedFormsOfTheSchlafliSymbol) {
   }
 }
 
-TEST(CriticalAngles, ObeyDuality) {
-  const std::vector<std::pair<SolidKind, SolidKind>> duals{{SolidKind::tetrahedron, SolidKind::tetrahedron},
-                                                           {SolidKind::cube, SolidKind::octahedron},
-                                                           {SolidKind::dodecahedron, SolidKind::icosahedron}};
-  for (const auto& [kind, other] : duals) {
-    const CriticalAngles a = critical_angles(platonic(kind)), b = critical_angles(platonic(other));
-    EXPECT_NEAR(a.ef_vertex_face, b.ff_edge_face, rounding) << to_string(kind);
-    EXPECT_NEAR(b.ef_vertex_face, a.ff_edge_face, rounding) << to_string(kind);
-    EXPECT_NEAR(a.ff_vertex_face, b.ff_vertex_face, rounding) << to_string(kind);
+TEST(CriticalAngles, AgreeWithConesOfNormals) {
+  for (const SolidKind kind : all_solids) {
+    const auto closed = as_array(critical_angles(platonic(kind))),
+               of_cones = as_array(critical_angles_of_cones(platonic(kind)));
+    for (std::size_t k = 0; k < closed.size(); ++k)
+      EXPECT_NEAR(of_cones[k], closed[k], rounding) << to_string(kind) << ' ' << k;
   }
-}
-
-using Parameters = std::vector<double>;  // each in [0, 1]
-using Pose = std::function<Contact(const Parameters&)>;
-using Angle = double Alignment::*;
-
-/// Largest angle over all poses: the best of many random poses, then a search in smaller and smaller boxes around it.
-double largest_angle(const ConvexSolid& solid, const Pose& pose, std::size_t dimensions, Angle angle,
-                     RandomStream& random) {
-  Parameters best(dimensions, 0.5), trial(dimensions);
-  double largest = -1;
-  for (int k = 0; k < 6000; ++k) {
-    const double box = k < 2000 ? 1 : std::pow(1e-9, (k - 2000) / 4000.0);
-    for (std::size_t d = 0; d < dimensions; ++d) {
-      const double from = k < 2000 ? 0.5 : best[d];
-      trial[d] = std::clamp(from + box * (random.uniform() - 0.5), 0.0, 1.0);
-    }
-    const double value = alignment(solid, pose(trial)).*angle;
-    if (value > largest) {
-      largest = value;
-      best = trial;
-    }
-  }
-  return largest;
-}
-
-class CriticalAnglesOf : public testing::TestWithParam<SolidKind> {
- protected:
-  const ConvexSolid& solid = platonic(GetParam());
-  const CriticalAngles critical = critical_angles(solid);
-  RandomStream random{12, static_cast<std::uint64_t>(GetParam())};
-
-  /// Poses in which the vertex is the outermost point. The direction is a convex combination of the normals around the
-  /// vertex.
-  Pose vertex_on_face() const {
-    return [this](const Parameters& t) {
-      Site site = constructed::vertex_site(solid, 0);
-      site.outward.setZero();
-      std::size_t k = 0;
-      for (std::uint64_t mask = site.faces; mask != 0; mask &= mask - 1) {
-        site.outward += t[k++] * solid.faces()[std::countr_zero(mask)].normal;
-      }
-      // If all weights are 0, there is no direction.
-      if (site.outward.norm() == 0) site.outward = solid.vertices()[0];
-      site.outward.normalize();
-      return constructed::contact(site, constructed::face_site(solid, 0), 0, Vector3d::Zero(), 0);
-    };
-  }
-
-  /// Poses in which the edge is outermost. t is the position of the direction between the two normals of the edge.
-  Site leaning_edge(double t) const {
-    Site site = constructed::edge_site(solid, 0);
-    const Vector3d& left = solid.faces()[solid.edges()[0].left].normal;
-    const Vector3d& right = solid.faces()[solid.edges()[0].right].normal;
-    site.outward = (t * left + (1 - t) * right).normalized();
-    return site;
-  }
-
-  Pose edge_on_edge() const {
-    return [this](const Parameters& t) {
-      return constructed::contact(leaning_edge(t[0]), leaning_edge(t[1]), 2 * pi * t[2], Vector3d::Zero(), 0);
-    };
-  }
-
-  Pose edge_on_face() const {
-    return [this](const Parameters& t) {
-      return constructed::contact(leaning_edge(t[0]), constructed::face_site(solid, 0), 0, Vector3d::Zero(), 0);
-    };
-  }
-
-  void expect_extremal(const Pose& pose, std::size_t dimensions, Angle angle, double claimed, const char* what) {
-    const double found = largest_angle(solid, pose, dimensions, angle, random);
-    EXPECT_LE(found, claimed + rounding) << what;
-    EXPECT_GE(found, claimed * (1 - 1e-3)) << what;  // the search cannot find a maximum at a kink exactly
-  }
-};
-
-TEST_P(CriticalAnglesOf, AreTheLargestOverAllOrientations) {
-  const std::size_t normals = std::popcount(constructed::vertex_site(solid, 0).faces);
-  const Angle ff = &Alignment::face_face, ef = &Alignment::edge_face;
-  expect_extremal(vertex_on_face(), normals, ff, critical.ff_vertex_face, "vertex-face, θ_ff");
-  expect_extremal(vertex_on_face(), normals, ef, critical.ef_vertex_face, "vertex-face, θ_ef");
-  expect_extremal(edge_on_edge(), 3, ff, critical.ff_edge_edge, "edge-edge, θ_ff");
-  expect_extremal(edge_on_edge(), 3, ef, critical.ef_edge_edge, "edge-edge, θ_ef");
-  expect_extremal(edge_on_face(), 1, ff, critical.ff_edge_face, "edge-face, θ_ff");
-}
-
-TEST_P(CriticalAnglesOf, BoundTheContactsThatTheKernelFinds) {
-  const int valence = std::popcount(constructed::vertex_site(solid, 0).edges);
-  int vertex_face = 0, edge_edge = 0;
-  for (int trial = 0; trial < 20000; ++trial) {
-    const Vector3d lab = constructed::random_direction(random) * (2 * solid.circumradius() * random.uniform());
-    const RelativePose pose =
-        relative_pose(constructed::random_orientation(random), constructed::random_orientation(random), lab);
-    const Contact contact =
-        constructed::overlapped(solid, {.pair = {}, .displacement = lab, .pose = pose, .overlap = {}});
-    const int edges_a = contact.overlap.edges_a.count(), edges_b = contact.overlap.edges_b.count();
-    const int faces_a = contact.overlap.faces_a.count(), faces_b = contact.overlap.faces_b.count();
-    const Alignment found = alignment(solid, contact);
-    if (std::max(edges_a, edges_b) == valence && std::min(edges_a, edges_b) == 0 && faces_a + faces_b == valence + 1) {
-      ++vertex_face;
-      EXPECT_LE(found.face_face, critical.ff_vertex_face + rounding);
-      EXPECT_LE(found.edge_face, critical.ef_vertex_face + rounding);
-    } else if (edges_a == 1 && edges_b == 1 && faces_a == 2 && faces_b == 2) {
-      ++edge_edge;
-      EXPECT_LE(found.face_face, critical.ff_edge_edge + rounding);
-      EXPECT_LE(found.edge_face, critical.ef_edge_edge + rounding);
-    }
-  }
-  EXPECT_GT(vertex_face, 100);
-  EXPECT_GT(edge_edge, 100);
-}
-
-INSTANTIATE_TEST_SUITE_P(Solids, CriticalAnglesOf, testing::ValuesIn(all_solids),
-                         [](const auto& solid) { return std::string(to_string(solid.param)); });
-
-TEST_P(CriticalAnglesOf, AgreeWithConesOfNormals) {
-  const auto closed = as_array(critical_angles(platonic(GetParam())));
-  const auto of_cones = as_array(critical_angles_of_cones(platonic(GetParam())));
-  for (std::size_t k = 0; k < closed.size(); ++k) EXPECT_NEAR(of_cones[k], closed[k], rounding) << k;
 }
 
 TEST(CriticalAngles, AreTheSmallestOverUnlikeVertices) {

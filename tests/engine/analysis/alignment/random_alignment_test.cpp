@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -78,60 +77,6 @@ TEST_P(RandomAlignmentOf, RandomRotationsFollowTheConstrainedForm) {
   EXPECT_LT(largest, 1e-14);
   EXPECT_EQ(ideal.constrained_edge_face(largest), 1);
   EXPECT_EQ(ideal.constrained_edge_face(-1e-9), 0);
-}
-
-TEST_P(RandomAlignmentOf, ClosedFormsRiseFromZeroToOne) {
-  const CriticalAngles critical = critical_angles(solid);
-  EXPECT_EQ(ideal.ff_max(), critical.ff_vertex_face);
-  EXPECT_EQ(ideal.ef_max(), critical.ef_vertex_face);
-  EXPECT_EQ(ideal.constrained_ff_max(), critical.ff_edge_face);
-  constexpr int steps = 20000;
-  const auto expect_rise = [&](const std::function<double(double)>& distribution, double largest) {
-    EXPECT_EQ(distribution(0), 0);
-    EXPECT_EQ(distribution(largest), 1);
-    double before = 0;
-    for (int k = 1; k <= steps; ++k) {
-      const double value = distribution(largest * k / steps);
-      EXPECT_GE(value, before - 1e-13) << k;
-      EXPECT_LE(value - before, 5.0 / steps) << "a step at " << largest * k / steps;
-      before = value;
-    }
-  };
-  expect_rise([&](double theta) { return ideal.face_face(theta); }, ideal.ff_max());
-  expect_rise([&](double theta) { return ideal.edge_face(theta); }, ideal.ef_max());
-  expect_rise([&](double theta) { return ideal.constrained_face_face(theta); }, ideal.constrained_ff_max());
-}
-
-TEST_P(RandomAlignmentOf, SmallAnglesFollowThePaper) {
-  const auto faces = static_cast<double>(solid.faces().size());
-  for (double theta = 1e-3; theta < critical_angles(solid).ff_edge_face; theta *= 1.1) {
-    EXPECT_NEAR(ideal.face_face(theta), faces * (1 - std::cos(theta)) / 2, 1e-12) << "∫ sin over the caps";
-  }
-  // Expected value from the area of a narrow strip along all sides of the polygons: the length of the sides divided by
-  // the area of the polygons.
-  const double arc = pi - std::acos(-std::cos(2 * ideal.constrained_ff_max()));
-  const double slope = 2 * static_cast<double>(solid.edges().size()) * arc / (4 * pi);
-  for (const double theta : {1e-3, 1e-4, 1e-5})
-    EXPECT_NEAR(ideal.edge_face(theta) / theta, slope, 10 * theta * slope) << theta;
-}
-
-TEST_P(RandomAlignmentOf, SamplesAreThoseOfSolidsPressedOnAFace) {
-  // Two streams with the same numbers: both draw the direction from which the face is pressed on the solid.
-  RandomStream fresh{52, static_cast<std::uint64_t>(GetParam())}, twin = fresh;
-  for (const AlignmentAngles& expected : sample_unconstrained(solid, 300, fresh)) {
-    const double z = 2 * twin.uniform() - 1, azimuth = 2 * pi * twin.uniform(), r = std::sqrt(1 - z * z);
-    const Vector3d direction(r * std::cos(azimuth), r * std::sin(azimuth), z);
-    const auto& vertices = solid.vertices();
-    const auto outermost = std::max_element(vertices.begin(), vertices.end(), [&](const auto& u, const auto& v) {
-      return u.dot(direction) < v.dot(direction);
-    });
-    constructed::Site site = constructed::vertex_site(solid, static_cast<int>(outermost - vertices.begin()));
-    site.outward = direction;
-    const Alignment found =
-        alignment(solid, constructed::contact(site, constructed::face_site(solid, 0), 0.7, Vector3d::Zero(), 1e-9));
-    EXPECT_NEAR(found.face_face, expected.face_face, 1e-13);
-    EXPECT_NEAR(found.edge_face, expected.edge_face, 1e-13);
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Solids, RandomAlignmentOf, testing::ValuesIn(all_solids),
@@ -214,34 +159,6 @@ TEST(EmpiricalCdf, CountsValues) {
   EXPECT_THROW(empirical_cdf(std::vector<double>{1, std::numeric_limits<double>::quiet_NaN()}), std::invalid_argument);
 }
 
-TEST(EmpiricalCdf, DistanceIsTheLargest) {
-  RandomStream random{55};
-  const auto square = [](double x) { return x * x; };
-  const auto root = [](double x) { return std::sqrt(x); };
-  for (const int n : {1, 5, 100}) {
-    std::vector<double> values;
-    for (int k = 0; k < n; ++k) values.push_back(random.uniform());
-    const EmpiricalCdf cdf = empirical_cdf(values);
-    // One distribution is above the empirical CDF, the other one below.
-    for (const auto& distribution : {+square, +root}) {
-      double greatest = 0;
-      for (int k = 0; k <= 100000; ++k) greatest = std::max(greatest, std::abs(cdf(k * 1e-5) - distribution(k * 1e-5)));
-      EXPECT_NEAR(kolmogorov_distance(cdf, distribution), greatest, 1e-3) << n;
-    }
-  }
-  EXPECT_EQ(kolmogorov_distance(EmpiricalCdf(), square), 0);
-}
-
-TEST(EmpiricalCdf, ProbabilityAgreesWithTables) {
-  // Median and quantiles of the limiting distribution, from tables.
-  EXPECT_NEAR(kolmogorov_probability(0.82757 / 1e4, 100000000), 0.5, 1e-4);
-  EXPECT_NEAR(kolmogorov_probability(0.5 / 1e4, 100000000), 0.96394, 1e-4);
-  EXPECT_NEAR(kolmogorov_probability(1.3581 / 1e4, 100000000), 0.05, 1e-4);
-  EXPECT_NEAR(kolmogorov_probability(1.6276 / 1e4, 100000000), 0.01, 1e-4);
-  EXPECT_EQ(kolmogorov_probability(0, 100), 1);
-  EXPECT_LT(kolmogorov_probability(1, 100), 1e-80);
-}
-
 TEST_P(RandomAlignmentOf, StratifiedSampleAgreesWithTheClosedForm) {
   const RandomAlignment sampled(solid, RandomAlignment::Way::sampled);
   ASSERT_TRUE(sampled.is_sampled());
@@ -293,11 +210,6 @@ TEST(RandomAlignment, OfOtherSolidsAgreesWithRandomSamples) {
         << name;
     EXPECT_NEAR(ideal.face_face(1e-4), static_cast<double>(solid.faces().size()) * 2.5e-9, 1e-15) << name;
   }
-}
-
-TEST(RandomAlignment, RejectsInvalidFractions) {
-  EXPECT_THROW(compare_with_random({}, [](double x) { return x; }, 1, {.fraction = 1}), std::invalid_argument);
-  EXPECT_THROW(compare_with_random({}, [](double x) { return x; }, 1, {.level = 0}), std::invalid_argument);
 }
 
 }  // namespace
