@@ -99,14 +99,6 @@ double backward_error(const Eigen::MatrixXd& a, double norm, const Eigen::Vector
   return (a * x - b).norm() / (norm * x.norm() + b.norm());
 }
 
-TEST(BlockCholesky, SomeSystemsHaveParticlesWithoutContacts) {
-  const Packing dilute = sized_packing(SolidKind::icosahedron, 20, 0.1, 2);
-  const int lonely = without_contacts(dilute);
-  EXPECT_GT(lonely, 0);
-  EXPECT_LT(lonely, 19) << "some must touch";
-  EXPECT_EQ(hessian_of(pair_packing(SolidKind::octahedron)).off_diagonal.size(), 1U);
-}
-
 TEST(BlockCholesky, SolvesAsTheDenseAndSparseFactorsDo) {
   RandomStream random{11};
   for (const System& system : systems()) {
@@ -135,15 +127,6 @@ TEST(BlockCholesky, SolvesAsTheDenseAndSparseFactorsDo) {
     std::printf("%-21s %5zu blocks, eigenvalues %9.2e … %.2e: backward error %.2f eps, from LLT %.2f eps·cond\n",
                 system.name.c_str(), system.matrix.off_diagonal.size(), system.lowest, system.highest, worst_backward,
                 worst_forward);
-  }
-}
-
-TEST(BlockCholesky, MultipliesAsTheDenseMatrixDoes) {
-  RandomStream random{12};
-  for (const System& system : systems()) {
-    const Eigen::VectorXd x = normal_vector(system.full.rows(), random);
-    const double scale = system.full.cwiseAbs().rowwise().sum().maxCoeff() * x.norm();
-    EXPECT_LE((system.matrix * x - system.full * x).norm(), 4 * eps * scale) << system.name;
   }
 }
 
@@ -193,26 +176,6 @@ TEST(BlockCholesky, ReuseGivesTheBitsOfANewFactor) {
       EXPECT_TRUE(used.solve(b) == fresh.solve(b)) << system.name << " in round " << round;
     }
   }
-}
-
-TEST(BlockCholesky, DistinguishesPatternsOfEqualSize) {
-  RandomStream random{14};
-  BlockCholesky used;
-  Packing packing = sized_packing(SolidKind::icosahedron, 40, 0.3, 8);
-  std::size_t least = std::numeric_limits<std::size_t>::max(), most = 0;
-  for (int round = 0; round < 20; ++round) {
-    packing = moved(packing, 0.1 * normal_vector(240, random));
-    const BlockMatrix matrix = hessian_of(packing);
-    least = std::min(least, matrix.off_diagonal.size());
-    most = std::max(most, matrix.off_diagonal.size());
-    const double shift = dense(matrix).cwiseAbs().rowwise().sum().maxCoeff();
-    BlockCholesky fresh;
-    ASSERT_TRUE(used.factorise(matrix, shift));
-    ASSERT_TRUE(fresh.factorise(matrix, shift));
-    const Eigen::VectorXd b = normal_vector(240, random);
-    EXPECT_TRUE(used.solve(b) == fresh.solve(b)) << "round " << round;
-  }
-  EXPECT_LT(least, most) << "the pattern never changed";
 }
 
 }  // namespace

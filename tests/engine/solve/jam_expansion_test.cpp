@@ -1,5 +1,3 @@
-#include <cmath>
-#include <set>
 
 #include "engine/solve/jam.hpp"
 #include "engine/solve/rearrangement.hpp"
@@ -179,39 +177,6 @@ TEST(JamTest, APackingThatLosesItsEnergyIsCompressedFurther) {
   gentle.compression.target_before_relaxation = true;
   advance(other, gentle);
   EXPECT_TRUE(other.ended());
-}
-
-TEST(JamTest, NoDecompressionStepIsMadeTwice) {
-  JamOptions options = lax();
-  options.minimise.method = Method::newton;
-  JamProgress progress = begin_jam(start_of(small, 71, options), options);
-  while (progress.result.states.size() < 3 && !progress.ended()) advance(progress, options);
-  ASSERT_FALSE(progress.ended()) << to_string(progress.result.status);
-  // From here no step reaches its residual, and the target limits the first step.
-  options.minimise.max_evaluations = 5;
-  const JamStep state = progress.result.path.back();
-  options.decompression.final_distance =
-      6 * state.energy_per_particle * state.density * state.density / state.pressure / 1.02;
-  std::vector<JamProgress> along;
-  const JamResult result = jam(progress, options, {}, [&](const JamProgress& reached) { along.push_back(reached); });
-  EXPECT_EQ(result.status, JamStatus::goal_not_reached) << to_string(result.status);
-  ASSERT_EQ(result.states.size(), 3U);
-  std::set<double> targets;
-  for (std::size_t k = progress.result.path.size(); k < result.path.size(); ++k) {
-    const JamStep& step = result.path[k];
-    std::printf("Δφ %.4e, %ld evaluations, %s\n", state.density - step.density, step.summary.evaluations,
-                to_string(step.summary.reason).data());
-    EXPECT_TRUE(targets.insert(step.density).second) << "the same step to φ " << step.density << " again";
-  }
-  EXPECT_EQ(targets.size(), 5U) << "a step and four retries";
-  // Between two attempts too, a run depends only on the progress from which it continues.
-  for (const JamProgress& reached : along) {
-    const JamResult rest = jam(reached, options);
-    EXPECT_EQ(rest.evaluations, result.evaluations);
-    ASSERT_EQ(rest.path.size(), result.path.size());
-    EXPECT_EQ(rest.path.back().density, result.path.back().density);
-    EXPECT_EQ(rest.path.back().summary.energy, result.path.back().summary.energy);
-  }
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "engine/solve/jam.hpp"
 
-#include <set>
-
 #include "tests/engine/solve/jam_support.hpp"
 #include "tests/engine/solve/solve_support.hpp"
 
@@ -102,55 +100,6 @@ TEST_P(Jam, EndsAtTheEdgeOfJamming) {
   EXPECT_EQ(again.evaluations, result.evaluations);
 }
 
-TEST(JamTest, NamesAreDistinct) {
-  std::set<std::string_view> names;
-  for (int k = 0; k <= static_cast<int>(JamStatus::interrupted); ++k)
-    names.insert(to_string(static_cast<JamStatus>(k)));
-  EXPECT_EQ(names.size(), enum_names<JamStatus>.size());
-  EXPECT_EQ(names.size(), 11U);
-  EXPECT_EQ(to_string(JamStatus::interrupted), "interrupted");
-  EXPECT_EQ(JamResult().status, JamStatus::not_called);
-}
-
-/// Pairs of touching particles.
-std::vector<std::pair<int, int>> touching(const Packing& packing) {
-  PackingEnergy energy;
-  std::vector<std::pair<int, int>> pairs;
-  for (const Contact& contact : energy.contacts(packing)) pairs.emplace_back(contact.pair.a, contact.pair.b);
-  return pairs;
-}
-
-TEST(JamTest, TheInitialConfigurationDeterminesTheResult) {
-  JamOptions options = lax();
-  options.compression.initial_density = 0.7;
-  options.max_steps = 3;
-  const std::vector<std::uint64_t> seeds{72, 73, 74, 75, 72, 75};
-  std::vector<Packing> ends;
-  for (const std::uint64_t seed : seeds) {
-    const auto keep = [&](const JamProgress& progress) {
-      if (progress.result.path.size() == 3) ends.push_back(progress.packing);
-    };
-    jam(start_of(small, seed, options), options, {}, keep);
-  }
-  ASSERT_EQ(ends.size(), seeds.size());
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    for (std::size_t other = 0; other < k; ++other) {
-      const auto pairs = touching(ends[k]), others = touching(ends[other]);
-      std::vector<std::pair<int, int>> shared;
-      std::set_intersection(pairs.begin(), pairs.end(), others.begin(), others.end(), std::back_inserter(shared));
-      SCOPED_TRACE("seeds " + std::to_string(seeds[k]) + " and " + std::to_string(seeds[other]) + " share " +
-                   std::to_string(shared.size()) + " of " + std::to_string(pairs.size()) + " contacts");
-      if (seeds[k] == seeds[other]) {
-        EXPECT_TRUE(same_bits(ends[k], ends[other]));
-      } else {
-        // If the packings were independent, a pair that touches in one of them would touch in the other with a
-        // probability of about Z/(N − 1).
-        EXPECT_LT(shared.size(), pairs.size() * 3 / 4) << "the same packing twice";
-      }
-    }
-  }
-}
-
 TEST(JamTest, StopsOnRequest) {
   const JamOptions options = lax();
   // Interrupted during the compression, and during the decompression when some states exist.
@@ -188,19 +137,6 @@ TEST(JamTest, ContinuesFromAnyStepWithTheSameBits) {
       EXPECT_TRUE(same_bits(rest.states[s], whole.states[s])) << k << ", state " << s;
     EXPECT_EQ(rest.phi_j->density, whole.phi_j->density) << k;
   }
-}
-
-TEST(JamTest, StopsBeforeItBegins) {
-  const JamOptions options = lax();
-  std::stop_source source;
-  source.request_stop();
-  JamOptions dense = options;
-  dense.compression.initial_density = 0.75;
-  const JamResult result = jam(start_of(small, 71, dense), dense, source.get_token());
-  EXPECT_EQ(result.status, JamStatus::interrupted);
-  EXPECT_TRUE(result.path.empty());
-  EXPECT_TRUE(result.states.empty());
-  EXPECT_FALSE(result.phi_j);
 }
 
 TEST(JamTest, DensityLimit) {

@@ -132,30 +132,6 @@ TEST(JammingPointTest, ChoosesItsWindowByItsOwnAnswer) {
   EXPECT_GT(sizes.size(), 5U) << "windows should differ in what they hold";
 }
 
-TEST(JammingPointTest, IgnoresOrderAndStatesWithoutEnergy) {
-  RandomStream random{65};
-  for (int k = 0; k < 100; ++k) {
-    auto states = approach(random_law(random, 5.8), 9, 0.05, 0.75);
-    for (EnergyPoint& state : states) state.density += 1e-5 * random.normal();
-    const auto point = fit_jamming_point(states, 0.02);
-    ASSERT_TRUE(point);
-    auto shuffled = states;
-    shuffled.push_back({states.back().density - 1e-3, 0, 0});
-    for (std::size_t s = shuffled.size(); s-- > 1;) std::swap(shuffled[s], shuffled[random.bits() % (s + 1)]);
-    const auto again = fit_jamming_point(shuffled, 0.02);
-    ASSERT_TRUE(again);
-    EXPECT_EQ(point->density, again->density);
-    EXPECT_EQ(point->standard_error, again->standard_error);
-    EXPECT_EQ(point->ci95_half_width, again->ci95_half_width);
-    EXPECT_EQ(point->single_state, again->single_state);
-    EXPECT_EQ(point->exponent, again->exponent);
-    ASSERT_EQ(point->states.size(), again->states.size());
-    for (std::size_t s = 0; s < point->states.size(); ++s)
-      EXPECT_EQ(states[static_cast<std::size_t>(point->states[s])].density,
-                shuffled[static_cast<std::size_t>(again->states[s])].density);
-  }
-}
-
 TEST(JammingPointTest, NeedsTwoStates) {
   const Law law;
   EXPECT_FALSE(fit_jamming_point({}, 0.02));

@@ -72,30 +72,6 @@ TEST(KrylovModel, IsExactInASmallSystem) {
   }
 }
 
-TEST(KrylovModel, ASmallSpaceContainsMostOfTheDecrease) {
-  for (const double diagonal : {12.0, 6.0, 2.0}) {
-    for (const std::uint64_t seed : {1U, 2U}) {
-      const System system = random_system(40, diagonal, seed);
-      const KrylovModel model(system.matrix, inverse_of(system.preconditioner), system.gradient, 1);
-      const Eigensolver solver(system.dense);
-      EXPECT_LE(model.vectors(), KrylovModel::most_vectors);
-      double before = std::numeric_limits<double>::infinity();
-      for (const double shift : {1.0, 4.0, 16.0}) {
-        const Eigen::VectorXd step = model.step(shift, no_limit).step, exact = exact_step(system, solver, shift);
-        // The gain is the decrease of the model in which |M| + λ replaces M.
-        const double part = system.gradient.dot(step) / system.gradient.dot(exact);
-        std::printf("diagonal %.0f, seed %d, shift %.0f: %d vectors, %.4f of the gain, decrease %.4f of exact\n",
-                    diagonal, static_cast<int>(seed), shift, model.vectors(), part,
-                    model.step(shift, no_limit).predicted_decrease / decrease(system, exact));
-        EXPECT_GT(part, 0.95);
-        EXPECT_LT(step.norm(), before);
-        EXPECT_GT(model.step(shift, no_limit).predicted_decrease, 0);
-        before = step.norm();
-      }
-    }
-  }
-}
-
 TEST(KrylovModel, NoParticleMovesFartherThanAllowed) {
   const System system = random_system(40, 2.0, 4);
   const KrylovModel model(system.matrix, inverse_of(system.preconditioner), system.gradient, 1e-3);
@@ -131,41 +107,6 @@ TEST(KrylovModels, MeetIndefiniteMatrices) {
   MinimiseWork work;
   BlockCholesky complete;
   EXPECT_FALSE(KrylovModels(1.0, complete).model(broken.matrix, broken.gradient, 1, work));
-}
-
-TEST(KrylovModels, FactoriseCompletelyAfterASpaceWithoutTheSoftModes) {
-  System system = random_system(40, 12.0, 6);
-  // The stiffness of the particles is spread over eight decades.
-  const auto scale = [](int particle) { return std::pow(10, -particle / 10.0); };
-  for (int k = 0; k < 40; ++k) system.matrix.diagonal[k] *= scale(k) * scale(k);
-  for (BlockMatrix::Block& block : system.matrix.off_diagonal) block.value *= scale(block.row) * scale(block.column);
-  for (Eigen::Index k = 0; k < 240; ++k)
-    system.dense.col(k) = system.matrix * Eigen::VectorXd(Eigen::VectorXd::Unit(240, k));
-  const double shift = 1e-8;
-  const Eigensolver solver(system.dense);
-  const Eigen::VectorXd exact = exact_step(system, solver, shift);
-  const auto error = [&](const KrylovModel& model) {
-    return (model.step(shift, no_limit).step - exact).norm() / exact.norm();
-  };
-  BlockCholesky memory;
-  KrylovModels models(1e3, memory);
-  MinimiseWork work;
-  const auto first = models.model(system.matrix, system.gradient, shift, work);
-  ASSERT_TRUE(first && first->incomplete());
-  EXPECT_EQ(work.factorisations, 0);
-  const auto second = models.model(system.matrix, system.gradient, shift, work);
-  ASSERT_TRUE(second);
-  std::printf("errors of the steps %.1e, %.1e; vectors %d, %d\n", error(*first), error(*second), first->vectors(),
-              second->vectors());
-  EXPECT_EQ(work.factorisations, 1);
-  EXPECT_LT(error(*second), 1e-3);
-  EXPECT_LT(second->vectors(), first->vectors());
-  for (Matrix6d& block : system.matrix.diagonal) block.diagonal().array() -= 1;
-  ASSERT_TRUE(models.model(system.matrix, system.gradient, shift, work));
-  EXPECT_GT(models.negative(), 0);
-  const long complete = work.factorisations;
-  ASSERT_TRUE(models.model(system.matrix, system.gradient, shift, work));
-  EXPECT_EQ(work.factorisations, complete);
 }
 
 }  // namespace

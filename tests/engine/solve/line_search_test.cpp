@@ -176,28 +176,6 @@ TEST(LineSearch, FindsStrongWolfePoints) {
                 static_cast<double>(evaluations[kind]) * static_cast<double>(kinds.size()) / cases);
 }
 
-TEST(LineSearch, StaysWithinTheLongestStep) {
-  RandomStream random{2};
-  int at_the_end = 0;
-  for (int k = 0; k < cases; ++k) {
-    Case c = random_case(random, k);
-    c.options.longest_step = c.length * decade(random, -3, 0);
-    const Trace trace = search(c);
-    ASSERT_TRUE(trace.result.found) << c.name << "\n" << seen(trace);
-    expect_honest(c, trace);
-    if (HasFatalFailure()) return;
-    const LinePoint& p = trace.result.point;
-    if (p.step < c.options.longest_step) {
-      expect_strong_wolfe(c, trace);
-      continue;
-    }
-    ++at_the_end;
-    EXPECT_LE(p.value, trace.start.value + c.options.decrease * p.step * trace.start.slope + rounding(trace)) << c.name;
-    EXPECT_LE(p.slope, c.options.curvature * std::abs(trace.start.slope)) << c.name << "\n" << seen(trace);
-  }
-  EXPECT_GT(at_the_end, cases / 4);
-}
-
 TEST(LineSearch, RecoversFromTrialsThatAreNotFinite) {
   RandomStream random{3};
   int walls_met = 0;
@@ -260,25 +238,6 @@ TEST(LineSearch, WorksBelowTheRoundingError) {
               accepted_by_slope);
   EXPECT_GT(found, cases / 2);
   EXPECT_GT(accepted_by_slope, 0);
-}
-
-TEST(LineSearch, ReportsThatNothingIsLower) {
-  RandomStream random{5};
-  for (int k = 0; k < cases; ++k) {
-    Case c = random_case(random, k);
-    // The slope at the start is wrong: in fact every step leads uphill.
-    const double slope = c.at(0).slope, level = random.normal();
-    c.at = [=](double t) { return LinePoint{t, level * std::abs(slope) - 2 * slope * t, t == 0 ? slope : -2 * slope}; };
-    const Trace trace = search(c);
-    expect_honest(c, trace);
-    if (HasFatalFailure()) return;
-    // The wrong slope is detected if the increase is larger than the rounding error.
-    if (trace.result.found) {
-      EXPECT_LE(trace.result.point.value, trace.start.value + rounding(trace)) << c.name << "\n" << seen(trace);
-    } else {
-      EXPECT_EQ(trace.result.point.value, trace.start.value) << c.name << "\n" << seen(trace);
-    }
-  }
 }
 
 }  // namespace

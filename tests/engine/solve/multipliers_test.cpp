@@ -106,20 +106,6 @@ TEST_P(Multipliers, FindTheEquilibriaThatNewtonFinds) {
   EXPECT_LT(by_multipliers, by_newton_alone);
 }
 
-TEST_P(Multipliers, SmallStepsNeedFewHessians) {
-  std::vector<long> counts;
-  for (const State& from : states(GetParam())) {
-    const Followed found = followed(from, 0.03);
-    EXPECT_TRUE(is_equilibrium(found.summary)) << to_string(found.summary.reason);
-    counts.push_back(found.summary.work.hessians);
-  }
-  ASSERT_FALSE(counts.empty());
-  std::sort(counts.begin(), counts.end());
-  std::printf("%zu states, %ld to %ld Hessians, median %ld\n", counts.size(), counts.front(), counts.back(),
-              counts[counts.size() / 2]);
-  EXPECT_LE(counts[counts.size() / 2], 20);
-}
-
 TEST_P(Multipliers, RelaxNeedsNoEquilibriumToStartFrom) {
   for (const State& from : states(GetParam())) {
     const double ratio = 0.1, force = PackingEnergy().evaluate(from.packing).mean_force;
@@ -164,74 +150,6 @@ TEST_P(Multipliers, AnyNumberOfThreadsGivesTheSameBits) {
   EXPECT_TRUE(same_bits(ends[0].packing, ends[1].packing));
   EXPECT_EQ(ends[0].summary.residual, ends[1].summary.residual);
   EXPECT_TRUE(ends[0].summary.work == ends[1].summary.work);
-}
-
-/// An equilibrium with its own multipliers, and the stiffness with which it is followed.
-struct Prepared {
-  MinimiseWork work;
-  EnvelopeEvaluator evaluator;
-  EnvelopeState state;
-
-  explicit Prepared(const State& from) : evaluator(Enthalpy({}, from.packing.cell), work), state{from.packing, {}} {
-    evaluator.set_stiffness(1);
-    const double force = evaluator.unshifted(from.packing).value.mean_force;
-    evaluator.set_stiffness(300 * force / from.distance);
-    state = evaluator.unshifted(from.packing);
-  }
-};
-
-Eigen::VectorXd disturbance(const State& from, double size) {
-  RandomStream random{322};
-  return size * normal_vector(6 * from.packing.size(), random);
-}
-
-TEST_P(Multipliers, LocalRelaxationMovesOnlyFlaggedParticles) {
-  const State& from = states(GetParam()).back();
-  Prepared prepared(from);
-  const int n = from.packing.size();
-  std::vector<char> flags(static_cast<std::size_t>(n), 0);
-  Eigen::VectorXd step = Eigen::VectorXd::Zero(6 * n);
-  for (int p = 0; p < n / 8; ++p) {
-    flags[static_cast<std::size_t>(p)] = 1;
-    step.segment<6>(6 * p) = disturbance(from, from.distance / 30).segment<6>(6 * p);
-  }
-  const EnvelopeState spoilt = prepared.evaluator.at(moved(from.packing, step), forces_after(prepared.state, step));
-  EnvelopeState relaxed = spoilt;
-  const double promised = spoilt.value.value - prepared.state.value.value;
-  EXPECT_GT(promised, 0);
-  const double shift = 0.1 * prepared.state.value.mean_force / from.distance;
-  EXPECT_TRUE(relax_locally(flags, shift, promised, prepared.evaluator, relaxed, prepared.work));
-  EXPECT_LT(relaxed.value.value - prepared.state.value.value, 0.1 * promised);
-  EXPECT_GT(prepared.work.local_factorisations, 0);
-  for (int p = 0; p < n; ++p) {
-    const Pose &before = spoilt.packing.poses[static_cast<std::size_t>(p)],
-               &after = relaxed.packing.poses[static_cast<std::size_t>(p)];
-    EXPECT_EQ(before.position == after.position, flags[static_cast<std::size_t>(p)] == 0) << "particle " << p;
-  }
-  const std::vector<char> none(static_cast<std::size_t>(n), 0);
-  EXPECT_FALSE(relax_locally(none, shift, promised, prepared.evaluator, relaxed, prepared.work));
-}
-
-TEST_P(Multipliers, LiftedStepsConvergeQuadratically) {
-  const State& from = states(GetParam()).back();
-  Prepared prepared(from);
-  const Eigen::VectorXd step = disturbance(from, 1e-4 * from.distance);
-  EnvelopeState state = prepared.evaluator.at(moved(from.packing, step), forces_after(prepared.state, step));
-  BlockCholesky complete;
-  DefiniteSolver solver(complete);
-  const double k0 = state.value.mean_force / from.distance;
-  std::vector<double> wrong;
-  for (int k = 0; k < 4; ++k) {
-    wrong.push_back(std::max(largest_displacement(state.value.gradient), state.value.multiplier_error) /
-                    state.value.mean_force);
-    auto next = lifted_step(state, 1e8 * k0, 1e-7 * k0, 0.01, prepared.evaluator, solver, prepared.work);
-    ASSERT_TRUE(next);
-    state = std::move(*next);
-  }
-  std::printf("wrong by %.1e, %.1e, %.1e, %.1e of the mean force\n", wrong[0], wrong[1], wrong[2], wrong[3]);
-  EXPECT_LT(wrong[3] / wrong[2], wrong[1] / wrong[0]);
-  EXPECT_LT(wrong[1], 0.3 * wrong[0]);
-  EXPECT_LT(wrong[3], 1e-5);
 }
 
 TEST(Rearrangement, CountsMovedParticles) {

@@ -87,12 +87,4 @@ inline Balance balance_of(const Packing& packing) {
   return balance;
 }
 
-/// Number of particles without contacts.
-inline int without_contacts(const Packing& packing) {
-  PackingEnergy fresh;
-  std::vector<char> touched(packing.poses.size(), 0);
-  for (const Contact& contact : fresh.contacts(packing)) touched[contact.pair.a] = touched[contact.pair.b] = 1;
-  return static_cast<int>(std::count(touched.begin(), touched.end(), 0));
-}
-
 }  // namespace isojam

@@ -181,16 +181,5 @@ TEST(StepModel, KeepsToTheLongestStep) {
   }
 }
 
-TEST(StepModel, RejectsAnIndefiniteMatrix) {
-  Case state = case_of(small_packing(SolidKind::dodecahedron, 0.8, 34), 0);
-  StepModel sound(state.second, state.value.gradient, unlimited);
-  for (Matrix6d& block : state.second.hessian.diagonal) block.diagonal().array() -= 2 * sound.largest_diagonal();
-  StepModel model(state.second, state.value.gradient, unlimited);
-  StepFactor factor;
-  ActivePairs active;
-  EXPECT_FALSE(model.minimise(0, factor, active));
-  EXPECT_TRUE(model.minimise(100 * sound.largest_diagonal(), factor, active));
-}
-
 }  // namespace
 }  // namespace isojam

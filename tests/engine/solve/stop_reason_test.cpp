@@ -1,5 +1,4 @@
 #include <limits>
-#include <set>
 
 #include "engine/solve/minimise/minimise.hpp"
 #include "tests/engine/solve/solve_support.hpp"
@@ -19,24 +18,6 @@ class StopReasonOf : public testing::TestWithParam<Method> {
 INSTANTIATE_TEST_SUITE_P(Methods, StopReasonOf,
                          testing::Values(Method::conjugate_gradient, Method::fire, Method::lbfgs, Method::newton),
                          [](const auto& test) { return std::string(to_string(test.param)); });
-
-TEST(StopReasonTest, DefaultSummaryWasNotCalled) {
-  const MinimiseSummary summary;
-  EXPECT_EQ(summary.reason, StopReason::not_called);
-  EXPECT_FALSE(summary.converged());
-  EXPECT_FALSE(is_equilibrium(summary));
-  EXPECT_EQ(summary.evaluations, 0);
-}
-
-TEST(StopReasonTest, EveryReasonHasItsOwnName) {
-  std::set<std::string_view> names;
-  for (int k = 0; k <= static_cast<int>(StopReason::interrupted); ++k)
-    names.insert(to_string(static_cast<StopReason>(k)));
-  EXPECT_EQ(names.size(), 10U);
-  EXPECT_EQ(to_string(StopReason::not_called), "not_called");
-  EXPECT_EQ(to_string(StopReason::precision_floor), "precision_floor");
-  EXPECT_EQ(to_string(StopReason::interrupted), "interrupted");
-}
 
 TEST_P(StopReasonOf, Budget) {
   for (const long budget : {1L, 2L, 7L, 30L}) {
@@ -78,16 +59,6 @@ TEST_P(StopReasonOf, UnjammedAtLowDensity) {
     EXPECT_LT(summary.energy, all.unjammed_energy * packing.size());
     EXPECT_LT(balance_of(packing).energy, all.unjammed_energy * packing.size());
   }
-}
-
-TEST_P(StopReasonOf, UnjammedWithoutAnyContact) {
-  RandomStream random{53};
-  Packing packing = random_packing(platonic(SolidKind::cube), 1, 0.01, random);
-  PackingEnergy energy;
-  const MinimiseSummary summary = minimise(packing, energy, options());
-  EXPECT_EQ(summary.reason, StopReason::unjammed);
-  EXPECT_EQ(summary.energy, 0);
-  EXPECT_EQ(summary.evaluations, 1);
 }
 
 TEST_P(StopReasonOf, NotFinite) {

@@ -63,17 +63,6 @@ TEST(Work, FactorsAreUpdatedIfThatIsCheaper) {
   EXPECT_GT(10 * work.factor_updates, work.factorisations) << "hardly anything is ever updated";
 }
 
-TEST(Work, AnEquilibriumNeedsNoFurtherWork) {
-  for (const Method method : {Method::conjugate_gradient, Method::fire, Method::lbfgs, Method::newton}) {
-    const MinimiseSummary summary = minimised(method, expanded().states.front(), 1e-6);
-    EXPECT_TRUE(summary.converged());
-    EXPECT_EQ(summary.iterations, 0);
-    EXPECT_LE(summary.evaluations, 2);
-    EXPECT_EQ(summary.work.hessians, 0);
-    EXPECT_EQ(summary.work.factorisations, 0);
-  }
-}
-
 TEST(Work, DoubleDoubleIsUsedOnlyAtTheFloor) {
   const Packing start = small_packing(SolidKind::octahedron, 0.9, 41, 45);
   const MinimiseSummary far = minimised(Method::newton, start, 1e-6);
@@ -84,23 +73,6 @@ TEST(Work, DoubleDoubleIsUsedOnlyAtTheFloor) {
   const MinimiseSummary beyond = minimised(Method::newton, start, far.residual_floor / 10);
   EXPECT_GT(beyond.work.double_double_evaluations, 0);
   EXPECT_LT(beyond.work.double_double_evaluations, beyond.evaluations) << "most of the way is made in doubles";
-}
-
-TEST(Work, CompressionComputesNoHessian) {
-  MinimiseWork sum;
-  long hessians = 0;
-  for (const JamStep& step : expanded().path) {
-    sum += step.summary.work;
-    if (step.stage == JamStage::decompression) hessians += step.summary.work.hessians;
-    if (step.stage == JamStage::compression) {
-      EXPECT_EQ(step.summary.work.hessians, 0) << "at " << step.density;
-      EXPECT_EQ(step.summary.work.factorisations, 0) << "at " << step.density;
-    }
-    EXPECT_LE(step.summary.work.hessians, step.summary.evaluations);
-    EXPECT_LE(step.summary.work.double_double_evaluations, step.summary.evaluations);
-  }
-  EXPECT_GT(hessians, 0);
-  EXPECT_TRUE(sum == expanded().work);
 }
 
 TEST(Work, OverlapIsNotCalledForSeparatedPairs) {
@@ -121,25 +93,6 @@ TEST(Work, OverlapIsNotCalledForSeparatedPairs) {
     EXPECT_EQ(cold.listed - cold.out_of_reach, near);
     EXPECT_LT(cold.out_of_reach, near / 2) << "the list's skin is as thick as what it covers";
   }
-}
-
-TEST(Work, AxesAvoidCallsDuringAWholeRun) {
-  const PairCounts& counts = expanded().counts;
-  std::printf("%ld listed, %ld out of reach, %ld by axis, %ld to the kernel, %ld touching, %ld clipped\n",
-              counts.listed, counts.out_of_reach, counts.by_axis, counts.overlapped, counts.touching, counts.clipped);
-  EXPECT_EQ(counts.listed, counts.out_of_reach + counts.by_axis + counts.overlapped);
-  EXPECT_LT(static_cast<double>(counts.overlapped), 1.05 * static_cast<double>(counts.touching));
-}
-
-TEST(Work, OnlyTheRequestedModesAreComputed) {
-  PackingEnergy energy;
-  const BlockMatrix matrix = energy.hessian(expanded().states.front(), Precision::double_double);
-  ModeOptions options;
-  options.lowest = 5, options.highest = 3;
-  const SpectrumEnds ends = spectrum_ends(matrix, options);
-  EXPECT_EQ(ends.lowest.size(), 5);
-  EXPECT_EQ(ends.highest.size(), 3);
-  EXPECT_EQ(ends.lowest.attempts, 1);
 }
 
 }  // namespace
