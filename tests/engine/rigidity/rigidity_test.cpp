@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <limits>
-#include <stdexcept>
 
 #include "engine/solve/factor/dense.hpp"
 #include "engine/solve/minimise/minimise.hpp"
@@ -71,107 +69,6 @@ TEST(RigidityMatrixTest, RowsAreUnitAndForcesGiveTheGradient) {
   }
 }
 
-/// Two touching bodies, where A has a random orientation, and motions of B about the touching point.
-struct Pair {
-  Pair(const ConvexSolid& solid, const Contact& in_frame_of_a, const Vector3d& touch, RandomStream& random)
-      : packing{solid, PeriodicCell(100), std::vector<Pose>(2)},
-        contact(constructed::overlapped(solid, in_frame_of_a)) {
-    packing.poses[0].orientation = constructed::random_orientation(random);
-    const Eigen::Quaterniond& q = packing.poses[0].orientation;
-    lever = q * (touch - contact.pose.displacement);
-    contact.pair = {0, 1};
-    contact.displacement = q * contact.pose.displacement;
-  }
-
-  /// |rows · dr| for a motion dr of unit length, in which B moves by `slide` and rotates by `turn` about the touching
-  /// point, in the frame of A.
-  double opposed(const RigidityMatrix& matrix, const Vector3d& slide, const Vector3d& turn) const {
-    const Eigen::Quaterniond& q = packing.poses[0].orientation;
-    const Vector3d theta = q * turn;
-    VectorXd step = VectorXd::Zero(12);
-    step.segment<3>(6) = q * slide - theta.cross(lever);
-    step.segment<3>(9) = packing.solids.only().gyration_radius() * theta;
-    return (matrix.rows * step.normalized()).norm();
-  }
-
-  Packing packing;
-  Contact contact;
-  Vector3d lever;  ///< from the centre of B to the touching point, in the lab frame
-};
-
-constexpr double depth = 1e-4;
-constexpr double free_motion =
-    30 * depth;  ///< largest value for a motion without resistance; it is not 0 because of the depth
-constexpr double opposed_motion = 0.1;
-
-TEST(RigidityMatrixTest, FaceOnFaceSlidesAndSpins) {
-  RandomStream random{92};
-  for (const SolidKind kind : all_solids) {
-    const ConvexSolid& solid = platonic(kind);
-    for (int face = 0; face < 4; ++face) {
-      const constructed::Site a = constructed::face_and_edges_site(solid, face);
-      const Contact touching = constructed::contact(a, constructed::face_and_edges_site(solid, 1), random.uniform(),
-                                                    1e-7 * a.outward.unitOrthogonal(), depth);
-      const Pair pair(solid, touching, a.point, random);
-      const std::vector<Alignment> angles{alignment(solid, pair.contact)};
-      const RigidityMatrix matrix =
-          class_constraints(pair.packing, std::vector{pair.contact}, angles, std::vector{ContactClass::face_face});
-      ASSERT_EQ(matrix.rows.rows(), 3);
-      const Vector3d n = a.outward, t = n.unitOrthogonal(), s = n.cross(t), none = Vector3d::Zero();
-      for (const Vector3d& in_plane : {t, s}) {
-        EXPECT_LE(pair.opposed(matrix, in_plane, none), free_motion) << to_string(kind);
-        EXPECT_GE(pair.opposed(matrix, none, in_plane), opposed_motion) << to_string(kind);
-      }
-      EXPECT_LE(pair.opposed(matrix, none, n), free_motion) << to_string(kind);
-      EXPECT_GE(pair.opposed(matrix, n, none), opposed_motion) << to_string(kind);
-    }
-  }
-}
-
-TEST(RigidityMatrixTest, EdgeInFaceRotatesAboutItself) {
-  RandomStream random{93};
-  for (const SolidKind kind : all_solids) {
-    const ConvexSolid& solid = platonic(kind);
-    for (int edge = 0; edge < 6; ++edge) {
-      const constructed::Site a = constructed::edge_site(solid, edge);
-      const Contact touching = constructed::contact(a, constructed::face_site(solid, 2), random.uniform(),
-                                                    0.1 * constructed::direction(solid, edge), depth);
-      const bool swap = edge % 2 == 1;  // the edge belongs to B and the face to A
-      const Contact seen = swap ? constructed::exchanged(touching) : touching;
-      const Eigen::Matrix3d to_frame = swap ? seen.pose.rotation : Eigen::Matrix3d::Identity().eval();
-      const Vector3d touch = swap ? Vector3d(seen.pose.displacement + to_frame * a.point) : a.point;
-      const Pair pair(solid, seen, touch, random);
-      const std::vector<Alignment> angles{alignment(solid, pair.contact)};
-      ASSERT_EQ(angles[0].edge_of_a, !swap);
-      const RigidityMatrix matrix =
-          class_constraints(pair.packing, std::vector{pair.contact}, angles, std::vector{ContactClass::edge_face});
-      ASSERT_EQ(matrix.rows.rows(), 2);
-      const Vector3d& face = solid.faces()[static_cast<std::size_t>(angles[0].face)].normal;
-      const Vector3d n = swap ? face : Vector3d(pair.contact.pose.rotation * face);
-      const Vector3d e = to_frame * constructed::direction(solid, edge), s = e.cross(n).normalized();
-      const Vector3d none = Vector3d::Zero();
-      EXPECT_LE(pair.opposed(matrix, e, none), free_motion) << to_string(kind);
-      EXPECT_LE(pair.opposed(matrix, s, none), free_motion) << to_string(kind);
-      EXPECT_LE(pair.opposed(matrix, none, e), free_motion) << to_string(kind) << ": about the edge";
-      EXPECT_LE(pair.opposed(matrix, none, n), free_motion) << to_string(kind) << ": about the normal";
-      EXPECT_GE(pair.opposed(matrix, n, none), opposed_motion) << to_string(kind);
-      EXPECT_GE(pair.opposed(matrix, none, s), opposed_motion) << to_string(kind) << ": lifting an end";
-    }
-  }
-}
-
-TEST(RigidityMatrixTest, RejectsListsOfDifferentLengths) {
-  const Packing packing = small_packing(SolidKind::octahedron, 0.6, 94);
-  const Known known(packing);
-  EXPECT_THROW(class_constraints(packing, known.contacts, {}, known.analysis.classes), std::invalid_argument);
-  EXPECT_THROW(class_constraints(packing, known.contacts, known.angles, {}), std::invalid_argument);
-  const std::vector<Alignment> blank(known.contacts.size());
-  for (const ContactClass flat : {ContactClass::edge_face, ContactClass::face_face}) {
-    const std::vector<ContactClass> classes(known.contacts.size(), flat);
-    EXPECT_THROW(class_constraints(packing, known.contacts, blank, classes), std::invalid_argument);
-  }
-}
-
 /// Checks the numbers of constraints, states of self-stress and floppy motions with contacts and singular values.
 void expect_counts(const Rigidity& rigidity, const RigidityMatrix& matrix, int constraints, int particles) {
   const VectorXd sigma = singular_values_of(MatrixXd(matrix.rows));
@@ -180,7 +77,6 @@ void expect_counts(const Rigidity& rigidity, const RigidityMatrix& matrix, int c
   EXPECT_EQ(rigidity.rank, rank);
   EXPECT_EQ(rigidity.self_stress, constraints - rank);
   EXPECT_EQ(rigidity.floppy, 6 * particles - rank);
-  EXPECT_EQ(rigidity.full_rank(), rank == 6 * particles - 3);
   EXPECT_LE(rank, 6 * particles - 3) << "translations are opposed";
   EXPECT_GT(rigidity.least_kept, 1e3 * std::max(rigidity.tolerance, rigidity.largest_dropped))
       << "the rank is a matter of opinion";
@@ -250,51 +146,6 @@ TEST_P(RigidityOf, EveryState) {
   }
 }
 
-TEST_P(RigidityOf, NearestJamming) {
-  const auto [kind, n, final_distance] = GetParam();
-  if (kind == SolidKind::cube) {
-    const Packing packing = states_of(GetParam())[0];
-    const Rigidity rigidity = analyse_rigidity(Known(packing).by_class());
-    EXPECT_GT(rigidity.self_stress, n) << "constraints of cubes are redundant: counting them says nothing";
-    return;
-  }
-  const Known known(nearest_state(jammed(kind, n, final_distance)));
-  const RigidityMatrix normals = known.normals();
-  RigidityOptions options;
-  options.stresses = true;
-  const Rigidity rigidity = analyse_rigidity(normals, options);
-  EXPECT_EQ(rigidity.self_stress, 1);
-  ASSERT_EQ(rigidity.stresses.cols(), 1);
-  const double along = std::abs(rigidity.stresses.col(0).dot(normals.forces.normalized()));
-  EXPECT_NEAR(along, 1, 1e-6) << "the forces of the equilibrium are that state";
-}
-
-/// Every second row repeats the previous one. There are far more states of self-stress than the number of rows
-/// suggests.
-TEST(RigidityTest, RepeatedRowsAreRedundant) {
-  const Known known(nearest_state(jammed(SolidKind::icosahedron, 32, .01)));
-  const RigidityMatrix once = known.normals();
-  RigidityMatrix twice = once;
-  twice.rows.resize(2 * once.rows.rows(), once.rows.cols());
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int k = 0; k < once.rows.outerSize(); ++k) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(once.rows, k); entry; ++entry) {
-      for (const Eigen::Index copy : {0, 1}) entries.emplace_back(2 * entry.row() + copy, entry.col(), entry.value());
-    }
-  }
-  twice.rows.setFromTriplets(entries.begin(), entries.end());
-  const Rigidity of_once = analyse_rigidity(once), of_twice = analyse_rigidity(twice);
-  EXPECT_EQ(of_twice.rank, of_once.rank);
-  EXPECT_EQ(of_twice.self_stress, of_once.self_stress + once.rows.rows());
-  EXPECT_EQ(of_twice.rank, (singular_values_of(MatrixXd(twice.rows)).array() > of_twice.tolerance).count());
-}
-
-TEST(RigidityTest, RejectsNaN) {
-  RigidityMatrix matrix = Known(nearest_state(jammed(SolidKind::icosahedron, 32, .01))).normals();
-  matrix.rows.coeffRef(3, 17) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(analyse_rigidity(matrix), std::invalid_argument);
-}
-
 /// A matrix with more rows than its rank; each row is a combination of a basis.
 RigidityMatrix combinations(int rank, int redundant, RandomStream& random) {
   MatrixXd basis(rank, 18), mixture(rank + redundant, rank);
@@ -322,6 +173,7 @@ TEST(RigidityTest, KnownRanks) {
       const Rigidity rigidity = analyse_rigidity(matrix);
       EXPECT_EQ(rigidity.rank, rank);
       EXPECT_EQ(rigidity.self_stress, redundant);
+      EXPECT_LE(rigidity.tolerance, 2.0 * (18 + redundant) * eps * singular_values_of(MatrixXd(matrix.rows))[0]);
       EXPECT_EQ(rigidity.floppy, 18 - rank);
       RigidityOptions options;
       options.stresses = true;

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include "engine/solve/factor/dense.hpp"
@@ -19,16 +18,6 @@ using Eigen::VectorXd;
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-const Packing& octahedra() { return nearest_state(jammed(SolidKind::octahedron, 48, .01)); }
-
-/// Depth V/|S| of the shallowest contact, which is a face-face contact.
-double shallowest_depth(const Packing& packing) {
-  double least = packing.solids.only().inradius();
-  for (const Contact& contact : PackingEnergy().contacts(packing))
-    least = std::min(least, contact.overlap.volume / contact.overlap.area.norm());
-  return least;
-}
-
 VectorXd spectrum(const MatrixXd& matrix) { return symmetric_eigenvalues(matrix); }
 
 TEST(DynamicalMatrix, FormsAgree) {
@@ -39,85 +28,11 @@ TEST(DynamicalMatrix, FormsAgree) {
     const VectorXd u = normal_vector(full.rows(), random);
     const double scale = norm_bound(blocks) * u.norm();
     EXPECT_LE((full * u - blocks * u).norm(), 8 * eps * scale) << to_string(kind);
-    EXPECT_LE((sparse_matrix(blocks) * u - blocks * u).norm(), 8 * eps * scale) << to_string(kind);
     EXPECT_EQ(full, full.transpose()) << "rounding apart, and the blocks hold one half only";
     const double largest = spectrum(full).cwiseAbs().maxCoeff();
     EXPECT_LE(largest, norm_bound(blocks) * (1 + 64 * eps));
     EXPECT_GE(largest, norm_bound(blocks) / 12) << "a bound, not a guess";
   }
-}
-
-TEST(DynamicalMatrix, TranslationsAreNullVectors) {
-  for (const SolidKind kind : all_solids) {
-    const Packing packing = small_packing(kind, 0.7, 52);
-    const BlockMatrix blocks = PackingEnergy().hessian(packing);
-    const MatrixXd moves = translations(blocks);
-    EXPECT_LE((moves.transpose() * moves - MatrixXd::Identity(3, 3)).norm(), 64 * eps);
-    const double lambda_max = spectrum(dense_matrix(blocks)).cwiseAbs().maxCoeff();
-    for (int c = 0; c < 3; ++c)
-      EXPECT_LE((blocks * moves.col(c)).norm(), rounding_bound(blocks, lambda_max)) << to_string(kind);
-    EXPECT_LE(rounding_bound(blocks, lambda_max), 1e4 * eps * lambda_max) << "it must still tell small from zero";
-  }
-  EXPECT_EQ(norm_bound(BlockMatrix{}), 0);
-}
-
-TEST(DynamicalMatrix, DifferencesBelowTheDepthOfFlatContacts) {
-  const Packing& packing = octahedra();
-  const BlockMatrix blocks = PackingEnergy().hessian(packing, Precision::double_double);
-  const MatrixXd exact = dense_matrix(blocks);
-  const double depth = shallowest_depth(packing), lowest = dense_modes(blocks).eigenvalues[0];
-  double before = 1;
-  for (const double h : {depth / 10, depth / 100}) {
-    const MatrixXd differences = difference_hessian(packing, h);
-    const double error = (differences - exact).norm() / exact.norm();
-    const VectorXd lambda = spectrum(differences);
-    std::printf("h %.1e, depth %.1e: differences wrong by %.1e of |D|, fourth mode %.2e, exact %.2e\n", h, depth, error,
-                lambda[3], lowest);
-    EXPECT_LE(error, 0.1 * h / depth) << "V'' of a contact changes by a part h/depth of itself at most";
-    EXPECT_LT(error, before / 3);
-    // Even if h is a tenth of the depth, a soft mode can be wrong.
-    if (h < depth / 50) {
-      EXPECT_NEAR(lambda[3], lowest, lowest / 10);
-    }
-    before = error;
-  }
-}
-
-TEST(DynamicalMatrix, DifferencesAboveTheDepthGiveSpuriousModes) {
-  const Packing& packing = octahedra();
-  const BlockMatrix blocks = PackingEnergy().hessian(packing, Precision::double_double);
-  const double depth = shallowest_depth(packing);
-  const ModeSet exact = dense_modes(blocks);
-  ASSERT_GT(exact.eigenvalues[0], rounding_bound(blocks, exact.eigenvalues[exact.size() - 1]));
-  const double h = 1000 * depth;
-  const VectorXd lambda = spectrum(difference_hessian(packing, h));
-  const long negative = (lambda.array() < -exact.eigenvalues[0]).count();
-  std::printf("h %.1e, depth %.1e: %ld negative modes\n", h, depth, negative);
-  EXPECT_GE(negative, 1);
-}
-
-TEST(DynamicalMatrix, IsTheCurvatureOfTheEnergy) {
-  RandomStream random{53};
-  // Far from jamming, where contacts are deep.
-  const Packing& packing = jammed(SolidKind::octahedron, 48, .01).states.front();
-  PackingEnergy energy;
-  const BlockMatrix blocks = energy.hessian(packing);
-  const double here = energy.evaluate(packing).energy;
-  for (int trial = 0; trial < 8; ++trial) {
-    const VectorXd u = normal_vector(6 * packing.size(), random).normalized();
-    const double h = 1e-4, quotient = u.dot(blocks * u);
-    const double curvature =
-        (energy.evaluate(moved(packing, h * u)).energy + energy.evaluate(moved(packing, -h * u)).energy - 2 * here) /
-        (h * h);
-    EXPECT_NEAR(curvature, quotient, 1e-4 * quotient) << "trial " << trial;
-  }
-}
-
-TEST(DynamicalMatrix, OfSphericalTopsIsTheHessian) {
-  const Packing packing = small_packing(SolidKind::octahedron, 0.7, 54);
-  const BlockMatrix hessian = PackingEnergy().hessian(packing);
-  EXPECT_EQ(dense_matrix(dynamical_matrix(packing, hessian)), dense_matrix(hessian));
-  EXPECT_EQ(greatest_inverse_mass(packing), 1);
 }
 
 /// Solves H m = λ M m, where M contains the masses a³ and moments of inertia a⁵/6 of cubes of two sizes a.
@@ -184,11 +99,6 @@ TEST(DynamicalMatrix, OfBoxesHasTheirInertia) {
   EXPECT_LE((moves.transpose() * mass * moves - MatrixXd::Identity(mass.rows(), mass.cols())).norm(), 1e-11);
   EXPECT_GT((dense_matrix(matrix) - dense_matrix(hessian)).norm(), .05 * dense_matrix(hessian).norm()) << "it matters";
   EXPECT_NEAR(greatest_inverse_mass(packing), mean / moments.minCoeff(), 1e-14);
-}
-
-TEST(DynamicalMatrix, RejectsInvalidSteps) {
-  EXPECT_THROW(difference_hessian(octahedra(), 0), std::invalid_argument);
-  EXPECT_THROW(difference_hessian(octahedra(), -1e-6), std::invalid_argument);
 }
 
 }  // namespace
