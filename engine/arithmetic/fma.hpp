@@ -5,8 +5,8 @@
 namespace isojam {
 
 #if defined(__x86_64__) && !defined(__FMA__)
-/// True if the processor has the fused multiply-add. Without this instruction, the C library computes the same bits, but
-/// the program is much slower.
+/// True if the processor has the fused multiply-add. Without this instruction, the C library computes the same bits,
+/// but the program is much slower.
 inline bool has_fma() { return __builtin_cpu_supports("fma"); }
 /// The sum a·b + c, rounded once.
 inline double fma(double a, double b, double c) {
