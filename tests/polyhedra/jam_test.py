@@ -2,7 +2,7 @@
 
 usage: jam_test.py ISOJAM [--all] [-o DIR]
 
-Without --all, a fixed sample of four solids; the whole set takes several minutes on 2 cores. N is 32, or the smallest of
+Without --all, a fixed sample of four solids; the whole set takes several minutes on 2 cores. N is 32, or the least of
 64, 128 and 256 for which the cell is longer than two diameters. Exits 1 if a replicate fails, or if the exported
 forces and the record disagree by more than a factor of 3. Prints a line for each solid."""
 
