@@ -215,19 +215,5 @@ TEST(DoubleDoubleEnergy, MixturesAgreeWithQuadruplePrecision) {
   EXPECT_LE(worst_hessian, 1e-9);
 }
 
-TEST(DoubleDoubleEnergy, AgreesWithDoubleFarFromJamming) {
-  for (const SolidKind kind : all_solids) {
-    RandomStream random{70, 4};
-    const Packing packing = random_packing(platonic(kind), 80, .5, random);
-    PackingEnergy energy;
-    const Evaluation plain = energy.evaluate(packing),
-                     in_double_double = energy.evaluate(packing, Precision::double_double);
-    EXPECT_EQ(plain.contacts, in_double_double.contacts);
-    EXPECT_NEAR(plain.energy, in_double_double.energy, 1e-12 * plain.energy);
-    EXPECT_LE((plain.gradient - in_double_double.gradient).norm(), 1e-12 * plain.gradient.norm());
-    EXPECT_LE((plain.stress - in_double_double.stress).norm(), 1e-12 * plain.stress.norm());
-  }
-}
-
 }  // namespace
 }  // namespace isojam::oracle

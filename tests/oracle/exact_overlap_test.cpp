@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdio>
 
 #include "engine/random/stream.hpp"
@@ -32,14 +31,6 @@ double relative(const Real& found, const Real& right) {
 
 double relative(const RealVector& found, const RealVector& right) {
   return static_cast<double>(Real((found - right).norm() / right.norm()));
-}
-
-TEST(ExactOverlap, CoincidentSolidsHaveUnitVolume) {
-  for (const SolidKind kind : all_solids) {
-    for (const Eigen::Quaterniond& q :
-         {Eigen::Quaterniond(1, 0, 0, 0), Eigen::Quaterniond(0, 0, 3, 0), Eigen::Quaterniond(1, -1, 1, 1)})
-      EXPECT_LT(relative(of(kind, at({0, 0, 0}, q)).volume, 1), 10 * plane_error) << to_string(kind);
-  }
 }
 
 TEST(ExactOverlap, CornersOfCubesHaveTheirClosedForm) {
@@ -88,67 +79,6 @@ TEST(ExactOverlap, RationalAndFloatingNumbersAgree) {
     EXPECT_LT(volume, 1e-22) << to_string(pair_class);
     EXPECT_LT(area, 1e-20) << to_string(pair_class);
   }
-}
-
-TEST(ExactOverlap, ExchangingTheSolidsChangesSigns) {
-  for (const SolidKind kind_a : all_solids) {
-    for (const SolidKind kind_b : all_solids) {
-      for (const PairCase& pair : pair_cases(kind_a, kind_b, PairClass::random_contact, 2)) {
-        const Placed a{platonic(kind_a), {}}, b{platonic(kind_b), pair.pose()};
-        const ExactOverlap of_a = exact_overlap<Real>(a, b), of_b = exact_overlap<Real>(b, a);
-        const RealVector moment = -of_a.moment + pair.displacement.cast<Real>().cross(of_a.area);
-        EXPECT_LT(relative(of_b.volume, of_a.volume), 1e-25) << describe(pair);
-        EXPECT_LT(relative(of_b.area, RealVector(-of_a.area)), 1e-25) << describe(pair);
-        EXPECT_LT(relative(of_b.moment, moment), 1e-25) << describe(pair);
-        EXPECT_EQ(of_b.faces_a, of_a.faces_b);
-        EXPECT_EQ(of_b.edges_a, of_a.edges_b);
-      }
-    }
-  }
-}
-
-TEST(ExactOverlap, AreaAndMomentAreTheGradientOfTheVolume) {
-  const double h = 1e-10;  // the truncation error is of order h², and the rounding error of order 1e-32/h
-  for (const SolidKind kind : all_solids) {
-    for (const PairCase& pair : pair_cases(kind, kind, PairClass::random_contact, 4)) {
-      const Placed b{platonic(kind), pair.pose()};
-      const auto slope = [&](const Pose& up, const Pose& down) {
-        return Real((exact_overlap<Real>({b.solid, up}, b).volume - exact_overlap<Real>({b.solid, down}, b).volume) /
-                    (2 * Real(h)));
-      };
-      RealVector area, moment;
-      for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector3d step = h * Eigen::Vector3d::Unit(k), half = step / 2;  // tan(θ/2) ≈ θ/2
-        const auto turned = [&](double sign) {
-          return at({0, 0, 0}, Eigen::Quaterniond(1, sign * half[0], sign * half[1], sign * half[2]));
-        };
-        area[k] = slope(at(step), at(-step));
-        moment[k] = slope(turned(1), turned(-1));
-      }
-      const ExactOverlap overlap = exact_overlap(pair);
-      EXPECT_LT(relative(area, overlap.area), 1e-14) << describe(pair);
-      EXPECT_LT(relative(moment, overlap.moment), 1e-14) << describe(pair);
-    }
-  }
-}
-
-TEST(ExactOverlap, FacesThatCoincideAreContested) {
-  for (const SolidKind kind : all_solids) {
-    for (const PairCase& pair : pair_cases(kind, kind, PairClass::random_contact, 5))
-      EXPECT_LT(exact_overlap(pair).contested_area, 1e-10) << describe(pair);
-    int contested = 0;
-    for (const PairCase& pair : pair_cases(kind, kind, PairClass::coplanar_faces, 20))
-      contested += exact_overlap(pair, PairClass::coplanar_faces).contested_area > 1e-2;
-    EXPECT_GT(contested, 0) << to_string(kind);
-  }
-}
-
-TEST(ExactOverlap, DisjointAndTouchingPairsHaveNoVolume) {
-  for (const Eigen::Vector3d& r : {Eigen::Vector3d(2, 0, 0), {1, .5, .25}, {1, 1, .25}, {1, 1, 1}})
-    EXPECT_EQ(of(SolidKind::cube, at(r)).volume, 0) << r.transpose();
-  Pose near = at({1, 0, 0});
-  near.position_low[0] = -1e-30;
-  EXPECT_GT(of(SolidKind::cube, near).volume, 0);
 }
 
 }  // namespace

@@ -87,14 +87,6 @@ struct Held {
     }
   }
 
-  /// Three motions that no normal opposes.
-  MatrixXd some_floppy() const {
-    const MatrixXd all = right_singular(MatrixXd(normals.rows)).vectors.rightCols(analyse_rigidity(normals).floppy);
-    MatrixXd some(all.rows(), 3);
-    some << all.col(0), all.col(all.cols() / 2), all.rightCols(1);
-    return some;
-  }
-
   std::string name;
   const Packing& packing;
   double distance;
@@ -117,84 +109,6 @@ const std::vector<Held>& states() {
     return list;
   }();
   return made;
-}
-
-/// ½ Σ (∇V·u)², and the rounding error of this sum.
-std::pair<Quad, Quad> normal_energy(const Held& held, const VectorXd& u) {
-  Quad energy = 0, rounding = 0;
-  for (std::size_t c = 0; c < held.contacts.size(); ++c) {
-    const NeighbourPair& pair = held.contacts[c].pair;
-    const QuadContact& exact = held.exact[c];
-    Quad product = 0, motion = 0;
-    for (int k = 0; k < 12; ++k) {
-      const Quad x = k < 6 ? u[6 * pair.a + k] : u[6 * pair.b + k - 6];
-      product += exact.slope[static_cast<std::size_t>(k)] * x, motion += x * x;
-    }
-    const Quad error = exact.rounding * exact.slope_size() * square_root(motion);
-    energy += product * product / 2;
-    rounding += size_of(product) * error + error * error / 2;
-  }
-  return {energy, rounding};
-}
-
-/// Rounding error of the second terms.
-double second_rounding(const Held& held, const VectorXd& u) {
-  double sum = 0;
-  for (std::size_t c = 0; c < held.contacts.size(); ++c) {
-    const auto& pair = held.contacts[c].pair;
-    const double motion = u.segment<6>(6 * pair.a).squaredNorm() + u.segment<6>(6 * pair.b).squaredNorm();
-    sum += held.pairs[c].second.norm() * motion;
-  }
-  return eps * sum;
-}
-
-/// The largest errors: of the sum of all contributions, and of this sum and of the normals relative to their rounding
-/// errors.
-struct Worst {
-  double total = 0, of_rounding = 0, normal_of_rounding = 0;
-};
-
-void check_shares(const Held& held, const VectorXd& u, Worst& worst) {
-  const auto shares = stiffness_shares(held.contacts, held.pairs, 10, u);
-  // The step is far below the depth of every contact; the next order contributes the square of this ratio.
-  const double step = 1e-8 * held.least_depth / u.cwiseAbs().maxCoeff();
-  const double whole = u.dot(difference_of_gradients(held.packing, u, step));
-  const auto [normal, rounding] = normal_energy(held, u);
-  const double off = std::abs(shares.total() - whole), allowed = 1e-12 * std::abs(whole) + second_rounding(held, u);
-  const auto normal_off = static_cast<double>(size_of(Quad(shares.normal) - normal) / rounding);
-  EXPECT_LE(off, 1e-7 * std::abs(whole)) << whole;
-  EXPECT_LE(off, allowed) << whole;
-  EXPECT_LE(normal_off, likely) << static_cast<double>(normal);
-  worst.total = std::max(worst.total, off / std::abs(whole));
-  worst.of_rounding = std::max(worst.of_rounding, off / allowed);
-  worst.normal_of_rounding = std::max(worst.normal_of_rounding, normal_off);
-}
-
-/// Two random motions, and the three softest modes whose energy the Hessian gives to some digits.
-MatrixXd some_motions(const Held& held, RandomStream& random) {
-  const ModeSet modes = dense_modes(held.hessian);
-  const double known = 1e3 * eps * modes.eigenvalues.tail(1)[0];
-  Index first = 0;
-  while (!(modes.eigenvalues[first] > known)) ++first;
-  MatrixXd motions(modes.vectors.rows(), 5);
-  for (double& x : motions.leftCols(2).reshaped()) x = random.normal();
-  motions.rightCols(3) = modes.vectors.middleCols(first, 3);
-  return motions;
-}
-
-TEST(HoldingTest, ContributionsSumToTheEnergyOfAMotion) {
-  RandomStream random{71, 1};
-  for (const Held& held : states()) {
-    SCOPED_TRACE(held.name);
-    for (const auto& [what, motions] : {std::pair{"random motions and softest modes", some_motions(held, random)},
-                                        std::pair{"floppy motions", held.some_floppy()}}) {
-      Worst worst;
-      for (Index k = 0; k < motions.cols(); ++k) check_shares(held, motions.col(k), worst);
-      std::printf("%s, Δφ = %.1e, least depth %.0e, %s: off by %.1e, %.2f of rounding; normals by %.0e of rounding\n",
-                  held.name.c_str(), held.distance, held.least_depth, what, worst.total, worst.of_rounding,
-                  worst.normal_of_rounding);
-    }
-  }
 }
 
 using QuadRow = std::vector<Quad>;
