@@ -77,8 +77,7 @@ def call(data, solid):
 
 
 SENTENCES = {"missing": "Constraints are missing in packings of {}.",
-             "none": "No constraints are missing in packings of {}.",
-             "uncertain": "Whether constraints are missing in packings of {} is uncertain."}
+             "none": "No constraints are missing in {}.", "uncertain": "{} are uncertain."}
 
 
 def verdict(data):
@@ -88,7 +87,8 @@ def verdict(data):
         names = [f"{PLURALS[s]} ({number(m['mean'], 2)} ± {number(error(m), 2)})" for s in SOLIDS
                  if call(data, s) == key and (m := limit(data, s, "m_x"))]
         if names:
-            made.append(sentence.format(" and ".join(filter(None, (", ".join(names[:-1]), names[-1])))))
+            text = sentence.format(" and ".join(filter(None, (", ".join(names[:-1]), names[-1]))))
+            made.append(text[0].upper() + text[1:])
     return " ".join(made).replace(" (", " (m = ", 1).replace(")", " per particle)", 1)
 
 

@@ -118,7 +118,7 @@ def missing(rows, solid):
 def verdict_numbers(rows, text):
     """m and its error of each solid, in the order of the text: for N → ∞, by weighted least squares, or of the largest N."""
     made = []
-    for solid in sorted(SOLIDS, key=lambda s: text.index(s.replace("hedron", "hedra"))):
+    for solid in sorted(SOLIDS, key=lambda s: text.lower().index(s.replace("hedron", "hedra"))):
         by_size = missing(rows, solid)
         n, (*means, width, count) = numpy.array(list(by_size)), numpy.array(list(by_size.values())).T
         if "N → ∞" in text:
