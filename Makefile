@@ -29,7 +29,7 @@ BROWSER_PACKAGES := chromium chromium-driver fonts-dejavu-core python3-selenium 
 CLANG            ?= $(shell . /etc/os-release 2>/dev/null; [ "$$VERSION_ID" = 12 ] && echo 14 || echo 19)
 CLANG_PACKAGES   := clang-$(CLANG)
 FUZZ_PACKAGES    := $(PROGRAM_PACKAGES) $(CLANG_PACKAGES) libclang-rt-$(CLANG)-dev llvm-$(CLANG)
-BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev libcgal-dev voro++-dev libsuitesparse-dev libopenblas-serial-dev
+BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev voro++-dev libsuitesparse-dev libopenblas-serial-dev yade
 PACKAGE_PACKAGES := dpkg-dev python3-build python3-setuptools python3-wheel
 SLURM_PACKAGES   := slurm-wlm munge python3
 DOCS_PACKAGES    := mkdocs doxygen python3
@@ -327,7 +327,7 @@ CONFIGURE_LINT = $(subst -B $(BUILD),-B $(BUILD)-lint,$(CONFIGURE)) -DISOJAM_TES
 # In a directory of its own, where nothing is built: clang-tidy cannot read the headers that g++ precompiles, and so sees
 # that every source includes what it needs.
 lint:
-	$(call install,$(BENCH_PACKAGES) $(LINT_PACKAGES) $(LIBCXX_PACKAGES))
+	$(call install,$(filter-out yade,$(BENCH_PACKAGES)) $(LINT_PACKAGES) $(LIBCXX_PACKAGES))
 	@clang-format --dry-run -Werror $(FILES)
 	$(CONFIGURE_LINT)
 	@$(MAKE) --no-print-directory -j $(JOBS) -O -k lint-sources

@@ -1,7 +1,7 @@
 // Measures the time to compute one pair. For touching pairs, it compares the contact loop, with and without second
-// derivatives, with clipping and with other programs (peers) that compute the same pairs. It also measures the pairs of
-// packings in their order, and the cached axis for pairs that almost touch. The solids are placed before the
-// measurement, because a packing places them once per evaluation; only simple clipping places them for every pair.
+// derivatives, with other programs (peers) that compute the same pairs. It also measures the pairs of packings in their
+// order, and the cached axis for pairs that almost touch. The solids are placed before the measurement, because a
+// packing places them once per evaluation.
 
 #include <benchmark/benchmark.h>
 
@@ -12,7 +12,6 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "tasks/extras/chart/pairs/intersection.hpp"
 #include "tests/bench/pair_set.hpp"
 #include "tests/bench/peers.hpp"
@@ -68,13 +67,8 @@ void contact_loop(benchmark::State& state, SolidKind kind) {
   time_pairs(state, set.size(), volume);
 }
 
-void simple_clip(benchmark::State& state, SolidKind kind) {
-  const PairSet& set = touching_pairs(kind);
-  time_pairs(state, set.size(), [&](std::size_t k) { return simply_clipped(set, k).volume(); });
-}
-
-void in_packings(benchmark::State& state, SolidKind kind, int n) {
-  const PairSet& set = packing_pairs(kind, n);
+void in_packings(benchmark::State& state, SolidKind kind) {
+  const PairSet& set = packing_pairs(kind);
   time_pairs(state, set.size(), [&](std::size_t k) {
     SeparatingAxis axis;
     return overlap(set.a(k), set.b(k), set.r(k), axis).volume;
@@ -90,30 +84,12 @@ void with_hessian(benchmark::State& state, SolidKind kind) {
   });
 }
 
-void quadruple_clip(benchmark::State& state, SolidKind kind) {
-  const PairSet& set = touching_pairs(kind);
-  time_pairs(state, 64, [&](std::size_t k) {
-    const Eigen::Matrix3d to_a = set.a(k).rotation().transpose();
-    return clipped_overlap(set.a(k).solid(), set.b(k).solid(),
-                           RelativePose{to_a * set.b(k).rotation(), to_a * set.r(k)})
-        .volume;
-  });
-}
-
 void voropp(benchmark::State& state, SolidKind kind) {
   const PairSet& set = touching_pairs(kind);
   VoroCells cells(set);
   const auto volume = [&](std::size_t k) { return cells.overlap(k); };
   require_right("voro++", set, set.size(), 1e-9, volume, &cells.area());
   time_pairs(state, set.size(), volume);
-}
-
-void cgal(benchmark::State& state, SolidKind kind) {
-  constexpr std::size_t pairs = 256;
-  const PairSet& set = touching_pairs(kind);
-  const auto volume = [&](std::size_t k) { return cgal_overlap(set, k); };
-  require_right("CGAL", set, pairs, 1e-6, volume);
-  time_pairs(state, pairs, volume);
 }
 
 void cached_axis(benchmark::State& state, SolidKind kind) {
@@ -132,17 +108,9 @@ void register_for_all_solids(const std::string& family_and_method, void (*run)(b
 
 [[maybe_unused]] const bool registered = [] {
   register_for_all_solids("overlap/contact_loop", contact_loop);
-  for (const int n : {64, 1000, 10000}) {
-    for (const SolidKind kind : all_solids) {
-      const std::string name = "overlap/in_packings_N=" + std::to_string(n) + "/" + std::string(to_string(kind));
-      benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) { in_packings(state, kind, n); });
-    }
-  }
+  register_for_all_solids("overlap/in_packings", in_packings);
   register_for_all_solids("overlap/with_hessian", with_hessian);
-  register_for_all_solids("overlap/simple_clip", simple_clip);
-  register_for_all_solids("overlap/quadruple_clip", quadruple_clip);
   register_for_all_solids("overlap/voro++", voropp);
-  register_for_all_solids("overlap/cgal", cgal);
   register_for_all_solids("near_miss/cached_axis", cached_axis);
   return true;
 }();

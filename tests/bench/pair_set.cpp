@@ -50,25 +50,17 @@ PairSet random_pairs(SolidKind kind, bool touching) {
   return set;
 }
 
-PairSet pairs_of(const std::vector<Packing>& packings) {
-  const ConvexSolid& solid = packings.front().solids.only();
-  const int n = packings.front().size();
+PairSet pairs_of(const Packing& packing) {
+  const ConvexSolid& solid = packing.solids.only();
   PairSet set;
-  set.placed.resize(solid, packings.size() * static_cast<std::size_t>(n), false);
-  int first = 0;
-  for (const Packing& packing : packings) {
-    for (int k = 0; k < n; ++k) {
-      const Pose& pose = packing.poses[static_cast<std::size_t>(k)];
-      set.placed.place(static_cast<std::size_t>(first) + static_cast<std::size_t>(k), rotation_matrix(pose).high);
-    }
-    for (const NeighbourPair& pair : find_neighbours(packing, 2 * solid.circumradius())) {
-      set.pairs.push_back({first + pair.a, first + pair.b, displacement(packing, pair)});
-      const std::size_t k = set.size() - 1;
-      SeparatingAxis unused;
-      const double volume = overlap(set.a(k), set.b(k), set.r(k), unused).volume;
-      if (volume < least_volume || volume > greatest_volume) set.pairs.pop_back();
-    }
-    first += n;
+  set.placed.resize(solid, packing.poses.size(), false);
+  for (std::size_t k = 0; k < packing.poses.size(); ++k) set.placed.place(k, rotation_matrix(packing.poses[k]).high);
+  for (const NeighbourPair& pair : find_neighbours(packing, 2 * solid.circumradius())) {
+    set.pairs.push_back({pair.a, pair.b, displacement(packing, pair)});
+    const std::size_t k = set.size() - 1;
+    SeparatingAxis unused;
+    const double volume = overlap(set.a(k), set.b(k), set.r(k), unused).volume;
+    if (volume < least_volume || volume > greatest_volume) set.pairs.pop_back();
   }
   return set;
 }
@@ -84,10 +76,10 @@ const PairSet& kept(SolidKind kind, bool touching) {
 
 const PairSet& touching_pairs(SolidKind kind) { return kept(kind, true); }
 
-const PairSet& packing_pairs(SolidKind kind, int n) {
-  static std::map<std::pair<SolidKind, int>, PairSet> sets;
-  const auto [slot, is_new] = sets.try_emplace({kind, n});
-  if (is_new) slot->second = pairs_of(relaxed(kind, n, packed_particles / n));
+const PairSet& packing_pairs(SolidKind kind) {
+  static std::map<SolidKind, PairSet> sets;
+  const auto [slot, is_new] = sets.try_emplace(kind);
+  if (is_new) slot->second = pairs_of(relaxed(kind, packed_particles).front());
   return slot->second;
 }
 

@@ -27,9 +27,9 @@ struct PairSet {
 /// branch predictor cannot learn them. Later calls with the same argument return the same object.
 const PairSet& touching_pairs(SolidKind kind);
 
-/// Pairs with V/V_p from 1e-5 to 3e-2 in the packings of relaxed(), each with n particles. There are 10⁴ particles in
-/// total. The pairs of one packing follow those of the previous one, in the order in which the energy evaluates them.
-const PairSet& packing_pairs(SolidKind kind, int n);
+/// Pairs with V/V_p from 1e-5 to 3e-2 in a packing of relaxed() with 10⁴ particles, in the order in which the energy
+/// evaluates them.
+const PairSet& packing_pairs(SolidKind kind);
 
 /// The same number of pairs as touching_pairs(), without contact, but with circumspheres that overlap.
 const PairSet& separated_pairs(SolidKind kind);

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "engine/packing/packing.hpp"
 #include "tests/bench/pair_set.hpp"
 
 namespace isojam::bench {
@@ -32,10 +34,6 @@ class VoroCells {
   std::unique_ptr<Cells> cells_;
 };
 
-/// The library CGAL: intersection of the half-spaces of both solids. Predicates are exact, and constructions are in
-/// double.
-double cgal_overlap(const PairSet& set, std::size_t k);
-
 /// The library CHOLMOD: supernodal factorisation with one thread. The elimination order is that of minimum degree or
 /// METIS, whichever is better. The symbolic part is computed once.
 class CholmodFactor {
@@ -54,6 +52,23 @@ class CholmodFactor {
   Eigen::SparseMatrix<double> lower_half_;
   std::unique_ptr<Workspace> workspace_;
 };
+
+/// A contact that YADE found: its particles, in any order, the volume V, and the force on one of them.
+struct YadeContact {
+  int a = 0, b = 0;
+  double volume = 0;
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+};
+
+/// A step of the program YADE with one thread.
+struct YadeStep {
+  double seconds = 0;  ///< CPU time
+  int left = 0;        ///< contacts with V > 1/2 after an affine expansion by 10 % has separated all particles
+  std::vector<YadeContact> contacts;
+};
+
+/// Runs YADE with a packing of one solid in a cube, without friction. Throws std::runtime_error if YADE fails.
+YadeStep yade_step(const Packing& packing);
 
 /// Description of the BLAS that CHOLMOD uses: its version, its kernels for this processor, and its number of threads.
 std::string blas_in_use();

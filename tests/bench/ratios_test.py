@@ -22,18 +22,12 @@ class Ratios(unittest.TestCase):
 
     def test_claims_hold_on_one_side_of_their_bound(self):
         found = {"f/ours/x": 200, "f/peer/x": 1000}
-        for kind, peer, ratio in (("faster", "f/peer/x", 5), ("costs", "f/peer/x", 0.2), ("absolute", None, 200)):
+        for kind, peer, ratio in (("faster", "f/peer/x", 5), ("costs", "f/peer/x", 0.2), ("costs", None, 200)):
             for bound, met in ((ratio * 0.99, kind == "faster"), (ratio, True), (ratio * 1.01, kind != "faster")):
                 row = ratios.judge((kind, "f/ours/x", peer, bound, 1, 1), found)
-                self.assertEqual((row.get("ratio", row["ours_value"]), row["met"]), (ratio, met), (kind, bound))
-        self.assertEqual(ratios.judge(("faster", "f/ours/x", "f/peer/x", None, 10, 1), found)["ratio"], 50)
-        self.assertIsNone(ratios.judge(("costs", "f/ours/x", "f/other/x", 1, 1, 1), found))
-
-    def test_every_claim_names_quantities_of_one_family(self):
-        for kind, ours, peer, *_ in ratios.claims():
-            self.assertEqual(peer is None, kind == "absolute", ours)
-            for name in (ours, peer or ours):
-                self.assertEqual((name.count("/"), name.split("/")[0]), (2, ours.split("/")[0]))
+                self.assertEqual((row["ratio"], row["met"]), (ratio, met), (kind, bound))
+        self.assertEqual(ratios.judge(("faster", "f/ours/x", "f/peer/x", 1, 10, 1), found)["ratio"], 50)
+        self.assertIsNone(ratios.judge(("faster", "f/ours/x", "f/other/x", 1, 1, 1), found))
 
     def test_two_programs_run_in_turn(self):
         times = {"before": [{"a": 20, "old": 1}, {"a": 32}, {"a": 30}], "now": [{"a": 10, "new": 1}, {"a": 8}, {"a": 6}]}

@@ -31,18 +31,17 @@ const std::vector<Packing>& relaxed(SolidKind kind, int n, int packings) {
   return list;
 }
 
-const Packing& strained(SolidKind kind, int n, double distance) {
+const Packing& jammed(SolidKind kind, int n, double distance) {
   static std::map<std::tuple<SolidKind, int, double>, Packing> known;
   const auto found = known.find({kind, n, distance});
   if (found != known.end()) return found->second;
   Packing packing = compressed(kind, n, 0, 0.78, {});
   PackingEnergy energy;
-  while (true) {
+  for (bool last = false; !last;) {
     const Evaluation value = energy.evaluate(packing);
     const double now = 6 * value.energy / n * packing.density() * packing.density() / value.pressure;  // by E ∝ Δφ⁶
-    const double step = std::min(0.3 * now, now - distance);
-    packing = strained_to(packing, packing.density() - step);
-    if (step < 0.3 * now) break;
+    last = now - distance <= 0.3 * now;
+    packing = strained_to(packing, packing.density() - (last ? now - distance : 0.3 * now));
     minimise(packing, energy, {});
   }
   return known.emplace(std::tuple(kind, n, distance), std::move(packing)).first->second;

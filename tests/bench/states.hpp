@@ -1,5 +1,7 @@
 #pragma once
 
+#include <benchmark/benchmark.h>
+
 #include <vector>
 
 #include "engine/packing/packing.hpp"
@@ -11,8 +13,13 @@ namespace isojam::bench {
 /// return the same object.
 const std::vector<Packing>& relaxed(SolidKind kind, int n, int packings = 1);
 
-/// A packing whose density is about φ_J + `distance`. It was strained from an equilibrium and is not in equilibrium
-/// itself. Later calls with the same arguments return the same object.
-const Packing& strained(SolidKind kind, int n, double distance);
+/// An equilibrium of 100 or more particles whose density is about φ_J + `distance`. Later calls with the same arguments
+/// return the same object.
+const Packing& jammed(SolidKind kind, int n, double distance);
+
+/// The counter that shows the time of a benchmark divided by the number of things that all its iterations handled.
+inline benchmark::Counter seconds_per(double things) {
+  return {things, benchmark::Counter::kIsRate | benchmark::Counter::kInvert};
+}
 
 }  // namespace isojam::bench
