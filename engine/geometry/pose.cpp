@@ -176,12 +176,4 @@ QuadPose relative_pose(const Pose& a, const Pose& b, const Quad3& displacement) 
   return {to_a * quad_rotation(b), to_a * displacement};
 }
 
-Eigen::Quaterniond rotated(const Eigen::Quaterniond& q, const Eigen::Vector3d& theta) {
-  const double angle = theta.norm();
-  Eigen::Quaterniond rotation;
-  rotation.w() = nearest::cos(angle / 2);
-  rotation.vec() = half_sinc(angle) * theta;
-  return (rotation * q).normalized();
-}
-
 }  // namespace isojam

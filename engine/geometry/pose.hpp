@@ -103,7 +103,4 @@ RelativePose narrowed(const QuadPose& pose);
 /// length except 0.
 QuadPose relative_pose(const Pose& a, const Pose& b, const Quad3& displacement);
 
-/// The normalised quaternion exp(θ)·q, where θ is a rotation vector in the lab frame (radians).
-Eigen::Quaterniond rotated(const Eigen::Quaterniond& q, const Eigen::Vector3d& theta);
-
 }  // namespace isojam

@@ -22,8 +22,6 @@ struct Rigidity {
   /// Orthonormal basis of the states of self-stress, constraints × self_stress. Empty unless RigidityOptions::stresses
   /// is true.
   Eigen::MatrixXd stresses;
-
-  bool full_rank() const { return floppy == 3; }  ///< true if the rank is 6N − 3
 };
 
 /// Options of analyse_rigidity().

@@ -8,8 +8,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "engine/solve/factor/shift_invert.hpp"
-
 namespace isojam {
 
 namespace {
@@ -95,10 +93,6 @@ double greatest_inverse_mass(const Packing& packing) {
     if (packing.solids.is_uniform()) break;
   }
   return greatest;
-}
-
-Eigen::SparseMatrix<double> sparse_matrix(const BlockMatrix& matrix) {
-  return lower_half(matrix, 0).selfadjointView<Eigen::Lower>();
 }
 
 Eigen::MatrixXd dense_matrix(const BlockMatrix& matrix) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 
 #include "engine/packing/block_matrix.hpp"
 #include "engine/packing/energy.hpp"
@@ -27,9 +26,7 @@ Eigen::MatrixXd mode_displacements(const Packing& packing, Eigen::MatrixXd modes
 /// part of M^(-1) that belongs to rotations, and 1 for spherical tops of unit volume.
 double greatest_inverse_mass(const Packing& packing);
 
-/// All entries of the symmetric matrix as a sparse matrix. It has 6N × 6N entries, or more if there is a border.
-Eigen::SparseMatrix<double> sparse_matrix(const BlockMatrix& matrix);
-/// All entries of the symmetric matrix as a dense matrix.
+/// All entries of the symmetric matrix as a dense matrix. It has 6N × 6N entries, or more if there is a border.
 Eigen::MatrixXd dense_matrix(const BlockMatrix& matrix);
 
 /// The three translations t of the whole packing as orthonormal columns, 6N × 3. D t = 0 in any state.
