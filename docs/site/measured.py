@@ -127,7 +127,8 @@ def main():
     found = json.loads(STORED.read_text(encoding="utf-8")) if STORED.exists() else {}
     if arguments.bench:
         run = json.loads(arguments.bench.read_text(encoding="utf-8"))
-        found = {"machine": run["machine"], "atlas": found.get("atlas"), **run["medians"]}
+        machine = {key: run["machine"].get(key) for key in ("date", "num_cpus", "mhz_per_cpu", "load_avg", "compiler")}
+        found = {"machine": machine, "atlas": found.get("atlas"), **run["medians"]}
     if arguments.chart:
         found["atlas"] = counted(json.loads(arguments.chart.read_text(encoding="utf-8")))
     if not arguments.check:
