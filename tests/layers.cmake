@@ -7,6 +7,7 @@ list(APPEND isojam_package_names
   numpy          python3-numpy         python3-numpy      python-numpy        numpy
   pandas         python3-pandas        python3-pandas     python-pandas       pandas
   matplotlib     python3-matplotlib    python3-matplotlib python-matplotlib   matplotlib
+  scipy          python3-scipy         python3-scipy      python-scipy        scipy
   gsd            python3-gsd           gsd                python-gsd          gsd
   vtkmodules     python3-vtk9          python3-vtk        vtk                 vtk
   yaml           python3-yaml          python3-pyyaml     python-yaml         pyyaml
@@ -76,7 +77,7 @@ if(ISOJAM_PYTHON)
   execute_process(COMMAND ${ISOJAM_PYTHON} -E -s -c "
 import importlib.util, sys
 print(*filter(importlib.util.find_spec, sys.argv[1:]), sep=';', end='')"
-                  numpy pandas matplotlib gsd vtkmodules yaml selenium OUTPUT_VARIABLE modules)
+                  numpy scipy pandas matplotlib gsd vtkmodules yaml selenium OUTPUT_VARIABLE modules)
   foreach(module IN LISTS modules)
     set(found_${module} ON)
   endforeach()

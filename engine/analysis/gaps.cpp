@@ -1,8 +1,10 @@
 #include "engine/analysis/gaps.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <stdexcept>
 
+#include "engine/geometry/overlap/overlap.hpp"
 #include "engine/geometry/overlap/separating_axis.hpp"
 #include "engine/packing/pair_loop.hpp"
 #include "engine/parallel/parallel.hpp"
@@ -42,6 +44,20 @@ double sphere_gap_limit(const Packing& packing, double max_width) {
   return max_width * largest_ratio * (1 + rounding);
 }
 
+/// Direction of a separating axis in the body frame of A, from A to B.
+Eigen::Vector3d direction_of(const SeparatingAxis& axis, const ConvexSolid& a, const ConvexSolid& b,
+                             const RelativePose& pose) {
+  if (axis.kind == SeparatingAxis::Kind::face_a) return a.faces()[axis.a].normal;
+  if (axis.kind == SeparatingAxis::Kind::face_b) return -(pose.rotation * b.faces()[axis.b].normal);
+  const auto along = [](const ConvexSolid& solid, std::size_t k) -> Eigen::Vector3d {
+    const Edge& edge = solid.edges()[k];
+    return solid.vertices()[static_cast<std::size_t>(edge.head)] -
+           solid.vertices()[static_cast<std::size_t>(edge.tail)];
+  };
+  const Eigen::Vector3d normal = along(a, axis.a).cross(pose.rotation * along(b, axis.b)).normalized();
+  return normal.dot(pose.displacement) < 0 ? Eigen::Vector3d(-normal) : normal;
+}
+
 }  // namespace
 
 std::vector<Gap> near_gaps(const Packing& packing, double max_width) {
@@ -57,17 +73,27 @@ std::vector<Gap> near_gaps(const Packing& packing, double max_width) {
     const RelativePose pose{to_a * b.rotation(), to_a * displacement(packing, pairs[k])};
     // Most candidates are too far apart. The faces show this faster than the pairs of edges.
     if (faces_reach(a.solid(), b.solid(), pose, max_width)) return;
-    const double width = gap(a.solid(), b.solid(), pose, best_axis(a.solid(), b.solid(), pose));
+    const auto axis = best_axis(a.solid(), b.solid(), pose);
+    const double width = gap(a.solid(), b.solid(), pose, axis);
     if (!(width > 0 && width < max_width)) return;
     // A product of two edges can have the same planes as a face. Then the planes are parallel to this face.
     all[k] = {pairs[k], width,
-              faces_reach(a.solid(), b.solid(), pose, width - gap_tolerance(a.solid(), b.solid(), pose))};
+              faces_reach(a.solid(), b.solid(), pose, width - gap_tolerance(a.solid(), b.solid(), pose)), pose,
+              direction_of(axis, a.solid(), b.solid(), pose)};
   });
   std::vector<Gap> gaps;
   for (const Gap& gap : all) {
     if (gap.width > 0) gaps.push_back(gap);
   }
   return gaps;
+}
+
+Contact as_contact(const Packing& packing, const Gap& gap, double reach) {
+  RelativePose moved = gap.pose;
+  moved.displacement -= reach * gap.axis;
+  return {gap.pair, displacement(packing, gap.pair), gap.pose,
+          relative_overlap(packing.solids[static_cast<std::size_t>(gap.pair.a)],
+                           packing.solids[static_cast<std::size_t>(gap.pair.b)], moved)};
 }
 
 }  // namespace isojam

@@ -2,8 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <cassert>
-#include <limits>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace isojam {
 
@@ -11,16 +12,19 @@ namespace {
 
 /// The convex surface through a closed chain of corners, after the corner in their middle has been removed. All faces
 /// at other corners remain faces, so that each new triangle has its corners in the chain. Divides the chain at the
-/// triangle over its first and last corner: no other corner of the chain is above this triangle.
+/// triangle over its first and last corner: no other corner of the chain is above this triangle. If several triangles
+/// are in one plane, the middle one keeps the number of triangles at each corner small.
 void cover(const HullPoints& points, const std::vector<int>& chain, std::vector<HullTriangle>& triangles) {
   if (chain.size() < 3) return;
   const int first = chain.front(), last = chain.back();
-  std::size_t best = 1;
+  std::vector<std::size_t> best{1};
   for (std::size_t k = 2; k + 1 < chain.size(); ++k) {
-    if (points.side(last, first, chain[best], chain[k]) > 0) best = k;
+    const int side = points.side(last, first, chain[best.front()], chain[k]);
+    if (side > 0) best.clear();
+    if (side >= 0) best.push_back(k);
   }
-  triangles.push_back({last, first, chain[best]});
-  const auto middle = chain.begin() + static_cast<std::ptrdiff_t>(best);
+  const auto middle = chain.begin() + static_cast<std::ptrdiff_t>(best[best.size() / 2]);
+  triangles.push_back({last, first, *middle});
   cover(points, {chain.begin(), middle + 1}, triangles);
   cover(points, {middle, chain.end()}, triangles);
 }
@@ -35,15 +39,15 @@ class Corners {
   std::size_t size() const { return stars_.size(); }
 
   void remove_smallest() {
-    int best = -1;
-    double least = std::numeric_limits<double>::infinity();
-    for (auto& [corner, star] : stars_) {
-      if (star.loss < 0) star.loss = loss(corner);
-      if (star.loss < least) {
-        least = star.loss;
-        best = corner;
-      }
+    for (const int corner : changed_) {
+      Star& star = stars_.at(corner);
+      by_loss_.erase({star.loss, corner});
+      star.loss = loss(corner);
+      by_loss_.insert({star.loss, corner});
     }
+    changed_.clear();
+    const auto [least, best] = *by_loss_.begin();
+    by_loss_.erase(by_loss_.begin());
     const std::vector<HullTriangle> patch = patch_of(best);
     for (const auto& [from, to] : std::map<int, int>(stars_.at(best).next)) {
       // The triangle (best, from, to) is also in the stars of its other two corners.
@@ -68,14 +72,14 @@ class Corners {
   /// Triangles at a corner: next[b] = c for the triangle (corner, b, c).
   struct Star {
     std::map<int, int> next;
-    double loss = -1;  ///< volume that is lost without this corner; negative if it is not known
+    double loss = -1;  ///< volume that is lost without this corner
   };
 
   void add(const HullTriangle& t) {
     for (std::size_t k = 0; k < 3; ++k) {
       Star& star = stars_[t[k]];
       star.next[t[(k + 1) % 3]] = t[(k + 2) % 3];
-      star.loss = -1;
+      changed_.insert(t[k]);
     }
   }
 
@@ -100,6 +104,8 @@ class Corners {
 
   const HullPoints& points_;
   std::map<int, Star> stars_;
+  std::set<int> changed_;                     ///< corners whose loss is not known
+  std::set<std::pair<double, int>> by_loss_;  ///< the other corners
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "engine/geometry/hull.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -16,8 +17,12 @@ namespace {
 
 /// A plane through `point`; `normal` has unit length, or is 0 if the triangles of the face have no area.
 struct PartPlane {
-  Quad3 normal{}, point{};
-  Quad height(const Quad3& p) const { return dot(normal, p - point); }
+  DoubleDouble3 normal{}, point{};
+  double height(const DoubleDouble3& p) const {
+    DoubleDouble sum;
+    for (std::size_t c = 0; c < 3; ++c) sum = sum + normal[c] * (p[c] - point[c]);
+    return sum.high;
+  }
 };
 
 /// A face that is being joined from triangles.
@@ -36,20 +41,19 @@ Part part_of(const FaceLoop& face, const HullPoints& points) {
 
 PartPlane plane_of(const Part& part, const HullPoints& points) {
   PartPlane plane;
-  for (const int v : part.vertices) plane.point = plane.point + points[v];
-  plane.point = (Quad(1) / part.vertices.size()) * plane.point;
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (const int v : part.vertices) plane.point[c] = plane.point[c] + points.fine(v)[c];
+    plane.point[c] = plane.point[c] / static_cast<double>(part.vertices.size());
+  }
   const Quad size = norm(part.area);
-  if (size > 0) plane.normal = (1 / size) * part.area;
+  if (size > 0) plane.normal = narrowed((1 / size) * part.area);
   return plane;
 }
 
-Quad largest_distance(const Part& part, const HullPoints& points) {
+double largest_distance(const Part& part, const HullPoints& points) {
   const PartPlane plane = plane_of(part, points);
-  Quad largest = 0;
-  for (const int v : part.vertices) {
-    const Quad height = plane.height(points[v]);
-    largest = std::max(largest, height < 0 ? -height : height);
-  }
+  double largest = 0;
+  for (const int v : part.vertices) largest = std::max(largest, std::abs(plane.height(points.fine(v))));
   return largest;
 }
 
@@ -92,11 +96,13 @@ class Joining {
  private:
   /// A pair of faces that may be joined, with the numbers of changes at the time of the estimate.
   struct Candidate {
-    Quad distance;
-    std::size_t a, b;
+    double distance;
+    std::size_t size, a, b;
     int changes;
-    bool operator<(const Candidate& other) const {  // the smallest distance is on top of the queue
-      return std::tie(distance, a, b) > std::tie(other.distance, other.a, other.b);
+    // The smallest distance is on top of the queue. Of equal distances, small faces come first: the time for one pair
+    // is proportional to their sizes.
+    bool operator<(const Candidate& other) const {
+      return std::tie(distance, size, a, b) > std::tie(other.distance, other.size, other.a, other.b);
     }
   };
 
@@ -106,8 +112,10 @@ class Joining {
   }
 
   void consider(std::size_t a, std::size_t b) {
-    const Quad distance = largest_distance(joined(parts_[a], parts_[b]), points_);
-    if (distance <= tolerance_) queue_.push({distance, a, b, parts_[a].changes + parts_[b].changes});
+    const Part both = joined(parts_[a], parts_[b]);
+    const double distance = largest_distance(both, points_);
+    if (distance <= tolerance_)
+      queue_.push({distance, both.vertices.size(), a, b, parts_[a].changes + parts_[b].changes});
   }
 
   void join_all() {
@@ -135,7 +143,7 @@ class Joining {
 
   const HullPoints& points_;
   std::span<const HullTriangle> triangles_;
-  Quad tolerance_;
+  double tolerance_;
   std::vector<std::size_t> root_;  ///< triangle that represents the face of each triangle, by find()
   std::vector<Part> parts_;        ///< of the representatives
   std::map<std::pair<int, int>, std::size_t> left_of_;  ///< the triangle in which an edge is directed in this way
@@ -211,7 +219,7 @@ void refuse_other_points(const HullPoints& points, std::span<const int> use, std
     const auto k = static_cast<std::size_t>(index);
     if (is_corner[k]) continue;
     const auto faces_at = std::count_if(faces.begin(), faces.end(), [&](const FaceLoop& face) {
-      return plane_of(part_of(face, points), points).height(points[index]) >= -tolerance;
+      return plane_of(part_of(face, points), points).height(points.fine(index)) >= -tolerance;
     });
     const char* where = faces_at >= 2 ? "on an edge of" : faces_at == 1 ? "on a face of" : "inside";
     throw NoSolid("vertex " + std::to_string(k) + " is not a corner of the convex hull: it lies " + where +

@@ -24,7 +24,8 @@ class NoSolid : public std::invalid_argument {
     equal_points,  ///< two points coincide
     not_a_corner,  ///< a point is not a corner of the hull
     too_large,     ///< there are more features than the program supports
-    not_planar     ///< a face cannot be made planar by small moves of its corners
+    not_planar,    ///< a face cannot be made planar by small moves of its corners
+    too_coarse     ///< a repair would change the solid by more than is allowed
   };
   /// `why` is the message. `vertex` is the index of the point that causes the error, or −1.
   explicit NoSolid(const std::string& why, Cause cause = Cause::other, int vertex = -1)

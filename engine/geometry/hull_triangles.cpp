@@ -5,7 +5,8 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <limits>
-#include <unordered_set>
+#include <unordered_map>
+#include <utility>
 
 #include "engine/geometry/hull.hpp"
 
@@ -40,6 +41,8 @@ auto determinant(const Vector& u, const Vector& v, const Vector& w) {
 /// Bound for the error of a determinant of differences of points, in units of the rounding unit. All coordinates are
 /// below 1/2, so each of the six products is below 1. It has fewer than eight rounding errors of at most one unit.
 constexpr double determinant_error = 64;
+/// The same in double-double: the error of each of the six products is below 26 · 2⁻¹⁰⁶.
+constexpr double fine_determinant_error = 0x1p-98;
 
 template <class Number>
 int sign(const Number& value) {
@@ -78,6 +81,7 @@ HullPoints::HullPoints(std::span<const Quad3> points) : exact_(points.begin(), p
   for (Quad3& point : exact_) {
     point = (1 / unit_) * point;
     near_.push_back(rounded(point));
+    fine_.push_back(narrowed(point));
   }
 }
 
@@ -86,9 +90,16 @@ int HullPoints::side(int a, int b, int c, int p) const {
   const double coarse = determinant<Vector3d>(near(b) - o, near(c) - o, near(p) - o);
   if (std::abs(coarse) > determinant_error * std::numeric_limits<double>::epsilon()) return sign(coarse);
   const HullPoints& points = *this;
-  const Quad fine = determinant(points[b] - points[a], points[c] - points[a], points[p] - points[a]);
-  constexpr double quad_epsilon = 0x1p-112;
-  if (fine > determinant_error * quad_epsilon || fine < -determinant_error * quad_epsilon) return sign(fine);
+  for (std::size_t k = 0; k < 3; ++k) {
+    // Many solids have faces in planes of constant x, y or z.
+    if (points[b][k] == points[a][k] && points[c][k] == points[a][k] && points[p][k] == points[a][k]) return 0;
+  }
+  const auto fine_difference = [this](int q, int r) {
+    const DoubleDouble3 &x = fine(q), &y = fine(r);
+    return DoubleDouble3{x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+  };
+  const double better = determinant(fine_difference(b, a), fine_difference(c, a), fine_difference(p, a)).high;
+  if (std::abs(better) > fine_determinant_error) return sign(better);
   return sign(determinant(exact_difference(points[b], points[a]), exact_difference(points[c], points[a]),
                           exact_difference(points[p], points[a])));
 }
@@ -121,37 +132,96 @@ std::array<int, 4> first_corners(const HullPoints& points, std::span<const int> 
   return side > 0 ? std::array{a, c, b, d} : std::array{a, b, c, d};
 }
 
-/// Number of the directed edge from a to b.
-std::uint64_t directed(int a, int b) { return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b); }
-
-/// Adds a point to a convex hull: replaces the triangles that see it by triangles from it to their outline.
-void add(int p, const HullPoints& points, std::vector<HullTriangle>& triangles) {
-  const auto hidden = std::stable_partition(
-      triangles.begin(), triangles.end(), [&](const HullTriangle& t) { return points.side(t[0], t[1], t[2], p) <= 0; });
-  const std::vector<HullTriangle> seen(hidden, triangles.end());
-  triangles.erase(hidden, triangles.end());
-  std::unordered_set<std::uint64_t> edges;
-  for (const HullTriangle& t : seen) {
-    for (std::size_t k = 0; k < 3; ++k) edges.insert(directed(t[k], t[(k + 1) % 3]));
-  }
-  for (const HullTriangle& t : seen) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int from = t[k], to = t[(k + 1) % 3];
-      if (!edges.contains(directed(to, from))) triangles.push_back({from, to, p});
+/// A hull that grows by one point at a time. Every point outside the hull is in the list of one triangle that it sees.
+class GrowingHull {
+ public:
+  GrowingHull(const HullPoints& points, std::span<const int> use) : points_(points) {
+    const auto [a, b, c, d] = first_corners(points, use);
+    facets_ = {{{a, b, c}, {1, 2, 3}}, {{a, d, b}, {3, 2, 0}}, {{b, d, c}, {1, 3, 0}}, {{c, d, a}, {2, 1, 0}}};
+    distribute(use, 0);
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      if (facets_[f].is_on_hull && !facets_[f].seen_by.empty()) add(farthest_above(f), f);
     }
   }
-}
+
+  std::vector<HullTriangle> triangles() const {
+    std::vector<HullTriangle> all;
+    for (const Facet& facet : facets_) {
+      if (facet.is_on_hull) all.push_back(facet.corners);
+    }
+    return all;
+  }
+
+ private:
+  struct Facet {
+    HullTriangle corners;
+    std::array<std::size_t, 3> next;  ///< the facets beyond the edges that begin at each corner
+    std::vector<int> seen_by{};
+    bool is_on_hull = true;
+  };
+
+  bool sees(int p, const Facet& f) const { return points_.side(f.corners[0], f.corners[1], f.corners[2], p) > 0; }
+
+  /// Assigns each point to the first facet from `first` on that it sees. Points inside the hull are omitted.
+  void distribute(std::span<const int> points, std::size_t first) {
+    for (const int p : points) {
+      const auto seen = std::find_if(facets_.begin() + static_cast<std::ptrdiff_t>(first), facets_.end(),
+                                     [&](const Facet& facet) { return sees(p, facet); });
+      if (seen != facets_.end()) seen->seen_by.push_back(p);
+    }
+  }
+
+  int farthest_above(std::size_t f) const {
+    const auto [a, b, c] = facets_[f].corners;
+    const Vector3d normal = (points_.near(b) - points_.near(a)).cross(points_.near(c) - points_.near(a));
+    return *std::max_element(facets_[f].seen_by.begin(), facets_[f].seen_by.end(),
+                             [&](int p, int q) { return normal.dot(points_.near(p)) < normal.dot(points_.near(q)); });
+  }
+
+  /// Replaces the facets that the point sees, of which f is one, by triangles from their outline to the point.
+  void add(int p, std::size_t f) {
+    const std::size_t first = facets_.size();
+    std::unordered_map<int, std::size_t> from;  // the new facet whose edge of the outline begins at a corner
+    std::vector<int> others;
+    std::vector<std::size_t> seen{f};
+    facets_[f].is_on_hull = false;
+    while (!seen.empty()) {
+      const Facet facet = std::move(facets_[seen.back()]);
+      facets_[seen.back()].is_on_hull = false;
+      const std::size_t here = seen.back();
+      seen.pop_back();
+      others.insert(others.end(), facet.seen_by.begin(), facet.seen_by.end());
+      for (std::size_t k = 0; k < 3; ++k) {
+        Facet& beyond = facets_[facet.next[k]];
+        if (!beyond.is_on_hull) continue;
+        if (sees(p, beyond)) {
+          beyond.is_on_hull = false;
+          seen.push_back(facet.next[k]);
+          continue;
+        }
+        *std::find(beyond.next.begin(), beyond.next.end(), here) = facets_.size();
+        from[facet.corners[k]] = facets_.size();
+        facets_.push_back({{facet.corners[k], facet.corners[(k + 1) % 3], p}, {facet.next[k], 0, 0}});
+      }
+    }
+    for (std::size_t k = first; k < facets_.size(); ++k) {
+      const std::size_t following = from.at(facets_[k].corners[1]);
+      facets_[k].next[1] = following;
+      facets_[following].next[2] = k;
+    }
+    std::erase(others, p);
+    distribute(others, first);
+  }
+
+  const HullPoints& points_;
+  std::vector<Facet> facets_;
+};
 
 }  // namespace
 
 std::vector<HullTriangle> hull_triangles(const HullPoints& points, std::span<const int> use) {
   if (use.size() < 4) throw NoSolid("fewer than four different vertices are left");
-  const auto [a, b, c, d] = first_corners(points, use);
-  std::vector<HullTriangle> triangles{{a, b, c}, {a, d, b}, {b, d, c}, {c, d, a}};
-  for (const int p : use) {
-    if (p != a && p != b && p != c && p != d) add(p, points, triangles);
-  }
-  return triangles;
+  return GrowingHull(points, use).triangles();
 }
 
 }  // namespace isojam

@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -17,12 +19,46 @@ namespace {
 
 using Eigen::Vector3d;
 
-double diameter(const HullPoints& points) {
+/// Largest distance of two of the points.
+double diameter(const HullPoints& points, const std::vector<int>& use) {
   double largest = 0;
-  for (int a = 0; a < points.size(); ++a) {
-    for (int b = 0; b < a; ++b) largest = std::max(largest, (points.near(a) - points.near(b)).squaredNorm());
+  for (std::size_t a = 0; a < use.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b)
+      largest = std::max(largest, (points.near(use[a]) - points.near(use[b])).squaredNorm());
   }
   return std::sqrt(largest);
+}
+
+/// Distance of a point from a convex solid; 0 inside it.
+double distance_from(const std::vector<Vector3d>& corners, const std::vector<FaceLoop>& faces, const Vector3d& point) {
+  double squared = std::numeric_limits<double>::infinity();
+  bool is_outside = false;
+  for (const FaceLoop& face : faces) {
+    const auto corner = [&](std::size_t k) { return corners[static_cast<std::size_t>(face[k % face.size()])]; };
+    Vector3d normal = Vector3d::Zero();
+    for (std::size_t k = 1; k + 1 < face.size(); ++k)
+      normal += (corner(k) - corner(0)).cross(corner(k + 1) - corner(0));
+    normal.normalize();
+    const double height = normal.dot(point - corner(0));
+    if (height <= 0) continue;
+    bool is_above = true;
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      const Vector3d side = corner(k + 1) - corner(k), from = point - corner(k);
+      if (normal.dot(side.cross(from)) >= 0) continue;
+      is_above = false;
+      const double along = std::clamp(from.dot(side) / side.squaredNorm(), 0.0, 1.0);
+      squared = std::min(squared, (from - along * side).squaredNorm());
+    }
+    if (is_above) squared = std::min(squared, height * height);
+    is_outside = true;
+  }
+  return is_outside ? std::sqrt(squared) : 0;
+}
+
+std::string percent(double x) {
+  std::array<char, 32> text{};
+  return {text.data(),
+          std::to_chars(text.data(), text.data() + text.size(), 100 * x, std::chars_format::general, 3).ptr};
 }
 
 template <class Loops>
@@ -41,32 +77,36 @@ class Repair {
       : given_(given),
         options_(options),
         points_(widened(given)),
-        diameter_(diameter(points_)),
         tolerance_(static_cast<double>(rounding_tolerance(widened(given)) / points_.unit())),
-        merge_(options.merge * diameter_),
         use_(given.size()) {
     std::iota(use_.begin(), use_.end(), 0);
   }
 
   RepairedSolid run() {
-    const bool welds = merge_ > 0 || options_.hull;
+    const bool welds = options_.merge > 0 || options_.hull;
     if (!welds) refuse_equal_points(points_, tolerance_);
     std::vector<HullTriangle> triangles = hull_triangles(points_, use_);
     const Quad whole = six_volumes(points_, triangles);
-    if (welds && weld(std::max(merge_, tolerance_))) triangles = hull_triangles(points_, use_);
+    hull_corners_ = corners_of(triangles);
+    if (hull_corners_.size() > std::size_t{most_hull_corners})
+      throw NoSolid("the convex hull has " + std::to_string(hull_corners_.size()) + " corners, but at most " +
+                    std::to_string(most_hull_corners) + " can be repaired");
+    diameter_ = diameter(points_, hull_corners_);
+    merge_ = options_.merge * diameter_;
+    if (options_.hull) {
+      report_.dropped = static_cast<int>(use_.size() - hull_corners_.size());
+      use_ = hull_corners_;
+    }
+    if (welds && weld(std::max(merge_, tolerance_))) triangles = hull_of_welded();
     const std::vector<FaceLoop> faces = joined_faces(points_, triangles, tolerance_);
-    const auto [depth, deepest] = largest_depth(faces);
-    report_.largest_depth = depth / diameter_;
-    // A point so near to a face could be moved to it.
-    if (!options_.hull && depth > std::max(merge_, tolerance_))
-      refuse_other_points(points_, std::array{deepest}, faces, tolerance_);
-    if (!options_.hull && merge_ == 0) refuse_other_points(points_, use_, faces, tolerance_);
+    expect_corners(faces);
     keep_corners_of(faces);
+    if (options_.corners == 0 && merge_ == 0) refuse_large(use_.size(), faces);
     triangles = hull_triangles(points_, use_);
     if (options_.corners > 0) {
       const std::size_t before = use_.size();
       triangles = without_smallest_corners(points_, triangles, options_.corners);
-      use_ = corners_of(triangles);
+      hull_corners_ = use_ = corners_of(triangles);
       report_.removed_corners = static_cast<int>(before - use_.size());
     }
     join(triangles);
@@ -75,6 +115,10 @@ class Repair {
     const Quad left = scale * scale * scale * six_volumes(result, hull_faces(widened(vertices_)));
     report_.hull_volume = static_cast<double>(unit * unit * unit * whole / 6);
     report_.volume_change = static_cast<double>(left / whole - 1);
+    if (std::abs(report_.volume_change) > options_.max_volume_change)
+      throw NoSolid("the repairs change the volume by " + percent(report_.volume_change) + " %, but at most " +
+                        percent(options_.max_volume_change) + " % are allowed",
+                    NoSolid::Cause::too_coarse);
     return {std::move(vertices_), report_};
   }
 
@@ -92,6 +136,28 @@ class Repair {
     report_.welded = static_cast<int>(use_.size() - kept.size());
     use_ = std::move(kept);
     return report_.welded > 0;
+  }
+
+  std::vector<HullTriangle> hull_of_welded() const {
+    try {
+      return hull_triangles(points_, use_);
+    } catch (const NoSolid&) {
+      throw NoSolid("welding leaves only " + std::to_string(use_.size()) + " of " + std::to_string(given_.size()) +
+                        " points, which span no volume",
+                    NoSolid::Cause::too_coarse);
+    }
+  }
+
+  /// Refuses points that are not corners, unless the options allow them.
+  void expect_corners(const std::vector<FaceLoop>& faces) {
+    if (!options_.hull || options_.measures_depth) {
+      const auto [depth, deepest] = largest_depth(faces);
+      report_.largest_depth = depth / diameter_;
+      // A point so near to a face could be moved to it.
+      if (!options_.hull && depth > std::max(merge_, tolerance_))
+        refuse_other_points(points_, std::array{deepest}, faces, tolerance_);
+    }
+    if (!options_.hull && merge_ == 0) refuse_other_points(points_, use_, faces, tolerance_);
   }
 
   void keep_corners_of(const std::vector<FaceLoop>& faces) {
@@ -113,7 +179,12 @@ class Repair {
     }
     double largest = 0;
     int deepest = use_.front();
-    for (const int k : use_) {
+    std::vector<int> among = use_;
+    if (options_.hull) {
+      among.resize(given_.size());
+      std::iota(among.begin(), among.end(), 0);
+    }
+    for (const int k : among) {
       double depth = diameter_;
       for (std::size_t f = 0; f < normals.size() && depth > largest; ++f)
         depth = std::min(depth, offsets[f] - normals[f].dot(points_.near(k)));
@@ -132,14 +203,31 @@ class Repair {
     }
     keep_corners_of(faces);
     refuse_large(use_.size(), faces);
-    if (report_.joined_faces > 0) return make_planar(std::move(faces));
-    for (const int k : use_) vertices_.push_back(given_[static_cast<std::size_t>(k)]);
-  }
-
-  void make_planar(std::vector<FaceLoop> faces) {
     for (FaceLoop& face : faces) {
       for (int& v : face) v = static_cast<int>(std::lower_bound(use_.begin(), use_.end(), v) - use_.begin());
     }
+    std::vector<Vector3d> corners;
+    if (report_.joined_faces > 0) {
+      corners = make_planar(faces);
+    } else {
+      for (const int k : use_) {
+        corners.push_back(points_.near(k));
+        vertices_.push_back(given_[static_cast<std::size_t>(k)]);
+      }
+    }
+    for (const int k : hull_corners_) expect_near(k, distance_from(corners, faces, points_.near(k)));
+  }
+
+  void expect_near(int point, double distance) {
+    if (distance > (1 + largest_planar_move) * merge_ + 2 * tolerance_)
+      throw NoSolid("the repairs would omit vertex " + std::to_string(point) + ", which is " +
+                        percent(distance / diameter_) + " % of the diameter away from the result",
+                    NoSolid::Cause::too_coarse, point);
+    if (distance > tolerance_) report_.largest_move = std::max(report_.largest_move, distance / diameter_);
+  }
+
+  /// Sets the vertices to planar faces, and returns them in scaled coordinates.
+  std::vector<Vector3d> make_planar(const std::vector<FaceLoop>& faces) {
     std::vector<Quad3> corners;
     Quad3 low = points_[use_.front()], high = low;
     for (const int k : use_) {
@@ -150,9 +238,13 @@ class Repair {
       }
     }
     const Quad3 centre = (Quad(1) / 2) * (low + high);
+    std::vector<Vector3d> scaled;
     try {
       const PlanarSolid planar = with_planar_faces(corners, faces, largest_planar_move * merge_);
-      for (const Quad3& v : planar.vertices) vertices_.push_back(rounded(points_.unit() * (v - centre)));
+      for (const Quad3& v : planar.vertices) {
+        vertices_.push_back(rounded(points_.unit() * (v - centre)));
+        scaled.push_back(rounded(v));
+      }
       report_.largest_move += static_cast<double>(planar.largest_move) / diameter_;
     } catch (const NoSolid& error) {
       throw NoSolid(error.what(), error.cause(),
@@ -160,13 +252,15 @@ class Repair {
     }
     if (hull_faces(widened(vertices_)) != faces)
       throw NoSolid("the joined faces cannot be written in double precision", NoSolid::Cause::not_planar);
+    return scaled;
   }
 
   std::span<const Vector3d> given_;
   RepairOptions options_;
   HullPoints points_;
-  double diameter_, tolerance_, merge_;
-  std::vector<int> use_;  ///< points that are left, ascending
+  double diameter_ = 0, tolerance_, merge_ = 0;
+  std::vector<int> use_;           ///< points that are left, ascending
+  std::vector<int> hull_corners_;  ///< corners that must be near the result
   std::vector<Vector3d> vertices_;
   RepairReport report_;
 };
@@ -174,29 +268,73 @@ class Repair {
 }  // namespace
 
 std::vector<std::size_t> welded(std::span<const Vector3d> points, double distance) {
-  std::vector<std::size_t> parent(points.size()), order(points.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const std::size_t none = points.size();
+  std::vector<std::size_t> first(points.size(), none), order(points.size()), place(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto root = [&](std::size_t k) {
-    while (parent[k] != k) k = parent[k] = parent[parent[k]];
-    return k;
-  };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points[a].x() < points[b].x(); });
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    for (std::size_t l = k + 1; l < order.size(); ++l) {
-      const Vector3d &p = points[order[k]], &q = points[order[l]];
-      if (q.x() - p.x() > distance) break;
-      if ((p - q).norm() > distance) continue;
-      const std::size_t a = root(order[k]), b = root(order[l]);
-      parent[std::max(a, b)] = std::min(a, b);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return points[a].x() < points[b].x(); });
+  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = k;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (first[k] != none) continue;
+    const auto take = [&](std::size_t other) {
+      if (first[other] == none && (points[k] - points[other]).norm() <= distance) first[other] = k;
+      return std::abs(points[k].x() - points[other].x()) <= distance;
+    };
+    first[k] = k;
+    for (std::size_t at = place[k]; at-- > 0 && take(order[at]);) {
+    }
+    for (std::size_t at = place[k] + 1; at < order.size() && take(order[at]); ++at) {
     }
   }
-  for (std::size_t k = 0; k < parent.size(); ++k) parent[k] = root(k);
-  return parent;
+  return first;
 }
 
 RepairedSolid repaired(std::span<const Vector3d> points, const RepairOptions& options) {
   return Repair(points, options).run();
+}
+
+std::optional<RepairOptions> tried_repair(std::span<const Vector3d> points, const RepairOptions& options,
+                                          NoSolid::Cause cause) {
+  const auto change = [&](const RepairOptions& changed) -> std::optional<double> {
+    try {
+      return std::abs(repaired(points, changed).report.volume_change);
+    } catch (const NoSolid&) {
+      return std::nullopt;
+    }
+  };
+  RepairOptions changed = options;
+  if (cause == NoSolid::Cause::equal_points || cause == NoSolid::Cause::not_a_corner) {
+    changed.hull = true;
+    if (change(changed)) return changed;
+  } else if (cause == NoSolid::Cause::too_coarse || cause == NoSolid::Cause::not_planar) {
+    for (const double factor : {0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 1e-3, 1e-4}) {
+      changed.merge = factor * options.merge;
+      if (options.merge > 0 && change(changed)) return changed;
+    }
+  } else if (cause != NoSolid::Cause::too_large) {
+    return std::nullopt;
+  }
+  // Smaller lengths leave faces that are almost in one plane. So many points are hardly ever welded below 1e-4.
+  constexpr std::size_t many = 1000;
+  for (const double merge : {1e-6, 1e-5, 1e-4, 1e-3, largest_merge}) {
+    changed = options;
+    changed.merge = merge;
+    if (cause != NoSolid::Cause::too_large || merge <= options.merge || (points.size() > many && merge < 1e-4))
+      continue;
+    if (change(changed)) return changed;
+  }
+  for (const int corners : {ConvexSolid::max_vertices, 112, 96, 80, ConvexSolid::max_edges / 3 + 2, 0}) {
+    changed = options;
+    changed.corners = corners == 0 ? options.corners : corners;
+    changed.max_volume_change = 1;
+    if (corners > 0 && (options.corners > 0 || cause != NoSolid::Cause::too_large)) continue;
+    const auto volume = change(changed);
+    if (!volume) continue;
+    changed.max_volume_change = options.max_volume_change;
+    if (*volume > options.max_volume_change) changed.max_volume_change = std::ceil(100 * *volume) / 100;
+    return changed;
+  }
+  return std::nullopt;
 }
 
 }  // namespace isojam

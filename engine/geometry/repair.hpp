@@ -2,30 +2,37 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/geometry/convex_solid.hpp"
+#include "engine/geometry/hull.hpp"
 
 namespace isojam {
 
 /// Upper limit of RepairOptions::merge.
 inline constexpr double largest_merge = 0.01;
+/// Largest number of corners of a hull before its repair. The search for the diameter visits all pairs.
+inline constexpr int most_hull_corners = 12000;
 /// Two adjacent faces whose normals differ by less than this angle (rad) are probably one face whose corners have
 /// rounding errors.
 inline constexpr double suspect_angle = 1e-3;
 
 /// The repairs that a caller allows. By default none is allowed.
 struct RepairOptions {
-  /// Length within which points are welded and faces are joined, relative to the diameter of the points. Points that
-  /// are at most this far apart are welded into one. Adjacent faces are joined if all of their corners are within this
-  /// distance of one plane. A corner then moves by at most largest_planar_move (planar_faces.hpp) times `merge`.
+  /// Length within which points are welded and faces are joined, relative to the diameter of the points. Each point is
+  /// welded to the first remaining point that is at most this far away. Adjacent faces are joined if all of their
+  /// corners are within this distance of one plane. No corner of the hull is then farther from the result than five
+  /// times this length.
   double merge = 0;
   /// Omits points that are not corners of the convex hull. If false, such a point is an error, unless it is within
   /// `merge` of a face.
   bool hull = false;
   /// Removes corners until this number is left. The value 0 keeps all corners; otherwise at least 4 must be left.
   int corners = 0;
+  double max_volume_change = 0.01;  ///< largest relative change of the volume
+  bool measures_depth = true;       ///< computes RepairReport::largest_depth, which takes a time of O(n²)
 };
 
 /// The repairs that were made.
@@ -34,8 +41,8 @@ struct RepairReport {
   int dropped = 0;          ///< number of points that were not corners of the hull
   int joined_faces = 0;     ///< number of faces of the hull that became a part of a larger face
   int removed_corners = 0;  ///< number of corners that were removed to reach RepairOptions::corners
-  /// Upper bound for the moves of points, relative to the diameter: the largest move by welding plus the largest one by
-  /// joining.
+  /// Upper bound for the moves of corners, relative to the diameter: the largest move by welding plus the largest by
+  /// joining, or the largest distance of a corner that was omitted from the result.
   double largest_move = 0;
   double hull_volume = 0;    ///< volume of the hull of all points, in their unit of length
   double volume_change = 0;  ///< volume of the result divided by hull_volume, minus 1
@@ -53,17 +60,21 @@ struct RepairedSolid {
   RepairReport report;  ///< the repairs that were made
 };
 
-/// For each point, the index of the first point of its group. Two points belong to the same group if their distance is
-/// at most `distance`, or if a chain of such pairs connects them. The time is O(n²) in the worst case, if all points
-/// have the same x.
+/// For each point, the index of its representative: the first representative that is at most `distance` away, or the
+/// point itself if there is none. The time is O(n²) in the worst case, if all points have the same x.
 std::vector<std::size_t> welded(std::span<const Eigen::Vector3d> points, double distance);
 
-/// Repairs the convex hull of points: welds points, omits inner points, removes corners and joins faces, in this order,
-/// as far as `options` allows it. Points that are no longer corners are then omitted too. The time is O(n²), so callers
-/// limit n to 5000. Throws NoSolid (hull.hpp) if the points span no volume, if a point is not a corner and options.hull
-/// is false, if joined faces cannot be made planar by moves of the order of options.merge, or if the result has too
-/// many features for ConvexSolid. NoSolid::vertex() is an index of `points`.
+/// Repairs the convex hull of points: omits inner points, welds points, removes corners and joins faces, as far as
+/// `options` allows it. Points that are no longer corners are then omitted too. Throws NoSolid (hull.hpp) if the points
+/// span no volume, if a point is not a corner and options.hull is false, if the repairs move corners or change the
+/// volume by more than `options` allows, if joined faces cannot be made planar by moves of the order of options.merge,
+/// or if the hull or the result has too many features. NoSolid::vertex() is an index of `points`.
 RepairedSolid repaired(std::span<const Eigen::Vector3d> points, const RepairOptions& options);
+
+/// The smallest change of `options` with which repaired() accepts the points that it refused for `cause`. nullopt if no
+/// such change was found.
+std::optional<RepairOptions> tried_repair(std::span<const Eigen::Vector3d> points, const RepairOptions& options,
+                                          NoSolid::Cause cause);
 
 /// Properties of a solid that show whether its vertices were written with enough digits.
 struct SolidShape {

@@ -101,11 +101,12 @@ struct JamOptions {
   MinimiseOptions minimise;
 };
 
-/// Stages of the protocol: compression and decompression.
-enum class JamStage { compression, decompression };
+/// Stages of the protocol: compression and decompression; and that of a packing that is measured without either.
+enum class JamStage { compression, decompression, as_given };
 template <>
 inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::compression, "compression"},
-                                                 EnumName{JamStage::decompression, "decompression"}};
+                                                 EnumName{JamStage::decompression, "decompression"},
+                                                 EnumName{JamStage::as_given, "as_given"}};
 
 /// Difference between two successive states of a solution branch, from which is_rearranged() decides whether the step
 /// contains a rearrangement. On a smooth solution branch, the energy is proportional to Δφ⁶, and all particles move by
@@ -151,6 +152,7 @@ enum class JamStatus {
   not_called,
   jammed,            ///< states were found down to final_distance, and φ_J was fitted
   zero_pressure,     ///< with CohesionUntil::end: the only state is the equilibrium at zero pressure
+  as_given,          ///< the only state is the given packing, which was not relaxed
   goal_not_reached,  ///< φ_J was fitted, but decompression ended before final_distance
   /// the last solution branch has fewer than two states; with CohesionUntil::end, no equilibrium was found
   not_jammed,
@@ -164,13 +166,18 @@ enum class JamStatus {
   interrupted
 };
 template <>
-inline constexpr std::array enum_names<JamStatus>{
-    EnumName{JamStatus::not_called, "not_called"},       EnumName{JamStatus::jammed, "jammed"},
-    EnumName{JamStatus::zero_pressure, "zero_pressure"}, EnumName{JamStatus::goal_not_reached, "goal_not_reached"},
-    EnumName{JamStatus::not_jammed, "not_jammed"},       EnumName{JamStatus::density_limit, "density_limit"},
-    EnumName{JamStatus::detached, "detached"},           EnumName{JamStatus::step_limit, "step_limit"},
-    EnumName{JamStatus::cell_limit, "cell_limit"},       EnumName{JamStatus::not_finite, "not_finite"},
-    EnumName{JamStatus::interrupted, "interrupted"}};
+inline constexpr std::array enum_names<JamStatus>{EnumName{JamStatus::not_called, "not_called"},
+                                                  EnumName{JamStatus::jammed, "jammed"},
+                                                  EnumName{JamStatus::zero_pressure, "zero_pressure"},
+                                                  EnumName{JamStatus::as_given, "as_given"},
+                                                  EnumName{JamStatus::goal_not_reached, "goal_not_reached"},
+                                                  EnumName{JamStatus::not_jammed, "not_jammed"},
+                                                  EnumName{JamStatus::density_limit, "density_limit"},
+                                                  EnumName{JamStatus::detached, "detached"},
+                                                  EnumName{JamStatus::step_limit, "step_limit"},
+                                                  EnumName{JamStatus::cell_limit, "cell_limit"},
+                                                  EnumName{JamStatus::not_finite, "not_finite"},
+                                                  EnumName{JamStatus::interrupted, "interrupted"}};
 
 /// Result of a training cycle.
 struct Cycle {
@@ -231,6 +238,9 @@ struct JamProgress {
 JamProgress begin_jam(Packing start, const JamOptions& options);
 /// Progress of a run before its first step, for decompression of a jammed packing only.
 JamProgress begin_decompression(Packing jammed, const JamOptions& options);
+
+/// Progress of a run that has ended: its only state is the packing, which is not relaxed.
+JamProgress begin_as_given(Packing packing);
 
 /// Makes the next step of a run that has not ended: changes the density or pressure, minimises the packing, and appends
 /// the step to the path. The first step of a run and the first step of a decompression only minimise. If a step of the

@@ -1,3 +1,6 @@
+#include <utility>
+
+#include "engine/packing/energy.hpp"
 #include "engine/solve/jam.hpp"
 
 namespace isojam {
@@ -31,6 +34,27 @@ Cycle cycle_of(const JamResult& result, double fit_window) {
   }
   if (const auto point = fit_jamming_point(energy_points(result), fit_window)) cycle.phi_j = point->density;
   return cycle;
+}
+
+JamProgress begin_as_given(Packing packing) {
+  PackingEnergy energy;
+  JamProgress progress{packing, JamStage::as_given, 0, 0, -1, {}};
+  JamResult& result = progress.result;
+  JamStep& step = result.path.emplace_back();
+  const Evaluation value = energy.evaluate(packing, Precision::double_double);
+  step.stage = JamStage::as_given;
+  step.density = packing.density();
+  step.energy_per_particle = value.energy / packing.size();
+  step.pressure = value.pressure;
+  step.deviator = deviator_of(value);
+  step.summary.residual = value.residual;
+  step.summary.precision = Precision::double_double;
+  result.states.push_back(std::move(packing));
+  result.state_steps.push_back(0);
+  result.evaluations = energy.evaluations();
+  result.counts = energy.counts();
+  result.status = JamStatus::as_given;
+  return progress;
 }
 
 }  // namespace isojam

@@ -120,7 +120,8 @@ void report_outcome(const Outcome& outcome, Console& console) {
   } else {
     const auto& jam = outcome.jam;
     const auto density = jam.phi_j ? fmt::format("phi_j {:.6f}", jam.phi_j->density)
-                                   : fmt::format("phi_0 {:.6f}", jam.states.front().density());
+                                   : fmt::format("{} {:.6f}", jam.status == JamStatus::as_given ? "density" : "phi_0",
+                                                 jam.states.front().density());
     console.detail(fmt::format("{}: {}, {} evaluations, {}", name, density, jam.evaluations,
                                duration_text(outcome.timing.wall_seconds)));
   }

@@ -29,6 +29,13 @@ std::string definitions_text(const Manifest& manifest) {
   std::string text;
   for (const auto& [name, definition] : manifest.definitions)
     text += fmt::format("{}: {}\n", name, definition_text(definition));
+  for (std::size_t k = 0; manifest.start && k < manifest.start->files.size(); ++k) {
+    const auto& file = manifest.start->files[k];
+    if (file.packing)
+      text += fmt::format("{}: {} particles, density {:.6g}, deepest overlap {:.2g} of the volume of a particle\n",
+                          file.path, file.packing->size(), manifest.start->density.value_or(file.packing->density()),
+                          file.deepest_overlap);
+  }
   return text;
 }
 

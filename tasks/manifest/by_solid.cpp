@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tasks/packings/similarity.hpp"
+
 namespace isojam {
 namespace {
 
@@ -34,10 +36,20 @@ void refuse_solids_besides(const std::vector<std::string>& swept, const JsonPlac
   }
 }
 
-/// True if the sweep has this solid and the manifest gives no value of the parameter for it.
-bool is_free(const JsonPlace& root, const Manifest& manifest, SolidKind kind, const std::string& key) {
-  return std::find(manifest.solids.begin(), manifest.solids.end(), Mixture(kind)) != manifest.solids.end() &&
-         place_of(root, key, to_string(kind)).pointer().empty();
+/// True if all particles are one solid with this shape, whatever its name is.
+bool has_shape(const Mixture& mixture, SolidKind kind) {
+  return mixture.is_one_solid() && similarity(platonic(kind), mixture.solid()->vertices()).has_value();
+}
+
+/// The names of solids of this shape in the sweep for which the manifest gives no value of the parameter.
+std::vector<std::string> free_solids(const JsonPlace& root, const Manifest& manifest, SolidKind kind,
+                                     const std::string& key) {
+  std::vector<std::string> names;
+  for (const auto& mixture : manifest.solids) {
+    if (has_shape(mixture, kind) && place_of(root, key, to_string(mixture)).pointer().empty())
+      names.emplace_back(to_string(mixture));
+  }
+  return names;
 }
 
 void read_by_solid(const JsonPlace& place, Manifest& manifest) {
@@ -80,12 +92,13 @@ Custom by_solid_field(Manifest& manifest) {
 }
 
 void add_defaults_of_solids(const JsonPlace& root, Manifest& manifest) {
-  manifest.free_cube_limit = is_free(root, manifest, SolidKind::cube, "max_density");
+  manifest.free_cube_limit = !free_solids(root, manifest, SolidKind::cube, "max_density").empty();
   constexpr auto key = "compression_evaluations";
-  if (!is_free(root, manifest, SolidKind::tetrahedron, key)) return;
   // φ_J of tetrahedra depends on how completely the states of the compression are relaxed (examples/02-strain-step).
-  auto& own = manifest.by_solid[std::string(to_string(SolidKind::tetrahedron))];
-  own.parameters[key] = own.options.compression.evaluations = evaluations_of_tetrahedra;
+  for (const auto& name : free_solids(root, manifest, SolidKind::tetrahedron, key)) {
+    auto& own = manifest.by_solid[name];
+    own.parameters[key] = own.options.compression.evaluations = evaluations_of_tetrahedra;
+  }
 }
 
 std::vector<OptionSet> option_sets(const Manifest& manifest) {
@@ -107,9 +120,12 @@ std::vector<OptionSet> option_sets(const Manifest& manifest) {
 JamOptions options_of(const Manifest& manifest, const OptionSet& set, const Mixture& solid,
                       std::optional<int> particles) {
   auto options = set.options;
-  if (const auto own = manifest.by_solid.find(to_string(solid)); own != manifest.by_solid.end())
+  bool is_free = particles && manifest.free_cube_limit;
+  if (const auto own = manifest.by_solid.find(to_string(solid)); own != manifest.by_solid.end()) {
     copy_values(own->second, options);
-  if (particles && manifest.free_cube_limit && solid == Mixture(SolidKind::cube)) {
+    is_free = is_free && !own->second.parameters.contains("max_density");
+  }
+  if (is_free && has_shape(solid, SolidKind::cube)) {
     auto& limit = options.compression.max_density;
     const double usual = limit;
     // In a smaller cell, a particle could touch two images of another one.

@@ -51,7 +51,7 @@ struct Manifest {
   std::map<std::string, std::vector<JamOptions>, std::less<>> swept;
   Replicates replicates;
   JamOptions protocol;           ///< options of the protocol and of the minimiser
-  bool free_cube_limit = false;  ///< true if the sweep has cubes and no max_density is given for them
+  bool free_cube_limit = false;  ///< true if the sweep has a cube for which no max_density is given
   /// key: the name of a solid in `solids`; value: the parameters of the protocol with their values for this solid only
   std::map<std::string, OptionSet, std::less<>> by_solid{};
   std::vector<Measure> measures = usual_measures();

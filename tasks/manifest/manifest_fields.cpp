@@ -171,12 +171,7 @@ void add_places(Fields& fields) {
 }
 
 Custom definitions_field(Manifest& manifest) {
-  const auto write = [&manifest] {
-    std::vector<Solid> solids;
-    for (const auto& mixture : manifest.solids)
-      for (const auto& kind : mixture.kinds()) solids.push_back(kind.solid);
-    return definitions_json(solids);
-  };
+  const auto write = [&manifest] { return definitions_json(manifest.solids, manifest.definitions); };
   return {write, [&manifest](const JsonPlace& place) { manifest.definitions = read_definitions(place); },
           definitions_schema(), "object of names and definitions"};
 }

@@ -60,7 +60,8 @@ ReplicateSpec Plan::at(std::size_t point, int replicate) const {
           options_of(manifest_, set, solid, particles),
           manifest_.measures,
           manifest_.measuring,
-          manifest_.start};
+          manifest_.start,
+          volume_changes(solid, manifest_.definitions)};
 }
 
 ReplicateSpec Plan::operator[](std::size_t index) const {
@@ -107,6 +108,19 @@ void describe(Fields& field, ReplicateSpec& spec) {
   field("exponents_of_all_states", spec.measuring.exponents_of_all_states,
         "True if the measure `exponents` measured all states, and not only the state nearest jamming.")
       .if_true();
+  field
+      .custom(
+          "volume_changes",
+          {[&spec] { return spec.volume_changes.empty() ? Json() : Json(spec.volume_changes); },
+           [&spec](const JsonPlace& place) {
+             for (const auto& item : place.value().items())
+               spec.volume_changes[item.key()] = place.at(item.key()).number({-1, 1});
+           },
+           {{"type", "object"}, {"additionalProperties", {{"type", "number"}}}},
+           "object of names and numbers"},
+          "Relative changes of the volumes of solids by the repairs that the manifest requested. Absent if no repair "
+          "changed a volume.")
+      .optional();
   const auto start_of = [](Start& start, std::size_t replicate) {
     return Nested{[&start, replicate](Fields& of) {
       of("digest", start.files[replicate].digest, "Digest of the file.");
@@ -118,7 +132,13 @@ void describe(Fields& field, ReplicateSpec& spec) {
           .finite();
       of("stage", start.stage,
          "First stage of the protocol. `compression`: The packing was first compressed to the target energy. "
-         "`decompression`: The packing was treated as jammed and only decompressed.");
+         "`decompression`: The packing was treated as jammed and only decompressed. `as_given`: The packing was "
+         "measured as "
+         "it was, and nothing was relaxed.");
+      of("gap", start.gap, "Pairs with a smaller gap count as contacts; absent if only overlapping pairs do.")
+          .unit("V_p^(1/3)")
+          .range({0, 1, true})
+          .finite();
     }};
   };
   field.member("start",

@@ -24,6 +24,7 @@ struct ReplicateSpec {
   std::vector<Measure> measures;
   MeasureOptions measuring;
   std::optional<Start> start{};
+  std::map<std::string, double> volume_changes{};  ///< of repaired solids, see volume_changes()
 };
 
 /// Text that identifies a sweep point by its solid, its number of particles and its swept parameters. It stays the same

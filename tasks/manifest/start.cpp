@@ -7,6 +7,7 @@
 
 #include "engine/packing/energy.hpp"
 #include "tasks/manifest/manifest.hpp"
+#include "tasks/measure/measure.hpp"
 #include "tasks/packings/content_error.hpp"
 
 namespace isojam {
@@ -32,17 +33,41 @@ StartFile read_file_place(const JsonPlace& place) {
   return {whole, -1, "", {}};
 }
 
-void refuse_overlaps(const JsonPlace& place, const Packing& packing) {
+/// The deepest overlap, in units of the volume of the smaller particle, and its particles.
+struct Deepest {
+  double depth = 0;
+  std::size_t a = 0, b = 0;
+};
+
+Deepest deepest_of(const Packing& packing) {
+  Deepest deepest;
+  for (const auto& contact : PackingEnergy().contacts(packing)) {
+    const auto a = static_cast<std::size_t>(contact.pair.a), b = static_cast<std::size_t>(contact.pair.b);
+    const double depth = contact.overlap.volume / std::min(packing.solids[a].volume(), packing.solids[b].volume());
+    if (depth > deepest.depth) deepest = {depth, a, b};
+  }
+  return deepest;
+}
+
+/// The packing of a file whose quaternions have the order w x y z, although they were read as x y z w.
+Packing reordered(Packing packing) {
+  for (auto& pose : packing.poses) {
+    const auto q = pose.orientation.coeffs();
+    pose.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  }
+  return packing;
+}
+
+void look_at_overlaps(const JsonPlace& place, const Packing& packing, StartFile& file) {
   try {
-    for (const auto& contact : PackingEnergy().contacts(packing)) {
-      const auto a = static_cast<std::size_t>(contact.pair.a), b = static_cast<std::size_t>(contact.pair.b);
-      const double least = std::min(packing.solids[a].volume(), packing.solids[b].volume());
-      if (contact.overlap.volume <= deepest_overlap * least) continue;
+    const auto [depth, a, b] = deepest_of(packing);
+    file.deepest_overlap = depth;
+    if (file.is_xyz && depth > 0) file.deepest_reordered = deepest_of(reordered(packing)).depth;
+    if (depth > deepest_overlap)
       place.refuse_with_remedy(
-          fmt::format("particles {} and {} overlap by {:.0f} % of the volume of the smaller", a, b,
-                      100 * contact.overlap.volume / least),
-          fmt::format("separate them until they overlap by at most {:.0f} %", 100 * deepest_overlap));
-    }
+          fmt::format("particles {} and {} overlap by {:.0f} % of the volume of the smaller", a, b, 100 * depth),
+          fmt::format("separate them until they overlap by at most {:.0f} %{}", 100 * deepest_overlap,
+                      file.is_xyz ? "; the order of the quaternions must be x y z w" : ""));
   } catch (const std::invalid_argument& error) {
     place.refuse(error.what(), fmt::format("lattice translations longer than {} (two diameters)",
                                            least_side(packing.solids.widest())));
@@ -84,6 +109,33 @@ void check_density(const JsonPlace& place, const Start& start, const Packing& pa
     if (options_of(manifest, set, manifest.solids.front()).cell == CellShape::free) continue;
     place.refuse_with_remedy("the cell of the packing is not a cube", "set /protocol/cell to \"free\"");
   }
+}
+
+Json measures_as_given() {
+  Json list;
+  for (const auto what : all_measures) {
+    if (definition_of(what).as_given) list.push_back(to_string(what));
+  }
+  return list;
+}
+
+/// A packing as given has no decompression, so that some measures and the goal phi_j are impossible.
+void check_stage(const JsonPlace& place, const Manifest& manifest) {
+  if (manifest.start->stage != JamStage::as_given) {
+    if (manifest.start->gap)
+      place.at("gap").refuse_with_remedy("gaps count only in packings as given",
+                                         "remove the key, or set /start/stage to \"as_given\"");
+    return;
+  }
+  for (const auto what : manifest.measures) {
+    if (!definition_of(what).as_given)
+      place.refuse_with_remedy(
+          fmt::format("the measure {} is not possible for a packing as given: it needs a jammed packing",
+                      to_string(what)),
+          fmt::format("set /measure to {}", compact(measures_as_given())));
+  }
+  if (manifest.replicates.goal && manifest.replicates.goal->quantity == "phi_j")
+    place.refuse_with_remedy("packings as given have no phi_j", "remove the goal in /replicates");
 }
 
 void read_packing(const JsonPlace& place, Start& start) {
@@ -147,8 +199,16 @@ void describe(Fields& field, Start& start) {
       .finite();
   field("stage", start.stage,
         "First stage of the protocol. `compression`: The packing is first compressed to the target energy. "
-        "`decompression`: The packing is treated as jammed and only decompressed.")
+        "`decompression`: The packing is treated as jammed and only decompressed. `as_given`: The packing is measured "
+        "as it "
+        "is, and nothing is relaxed.")
       .optional();
+  field("gap", start.gap,
+        "Only with the stage `as_given`: pairs of particles with a smaller gap count as contacts, in addition to those "
+        "that overlap. The gap is the largest distance of two parallel planes that separate the particles.")
+      .unit("V_p^(1/3)")
+      .range({0, 1, true})
+      .finite();
   field
       .custom("types", types_field(start),
               "Names of solids for the types of particles whose shapes are not in the files, for example {\"A\": "
@@ -170,14 +230,15 @@ void load_start(const JsonPlace& place, Manifest& manifest) {
   if (static_cast<int>(start.files.size()) < manifest.replicates.max)
     packing.refuse(fmt::format("too few files ({}) for {} replicates", start.files.size(), manifest.replicates.max),
                    "a file for each replicate");
+  check_stage(place, manifest);
   for (std::size_t k = 0; k < start.files.size(); ++k) {
     auto& file = start.files[k];
     if (file.packing) continue;
     file.frame = start.frame;
     const auto here = packing.value().is_array() ? packing.at(k) : packing;
     load_file(here, file, manifest);
-    check_density(here, start, *file.packing, manifest);
-    refuse_overlaps(here, initial_packing(start, static_cast<int>(k)));
+    if (start.stage != JamStage::as_given) check_density(here, start, *file.packing, manifest);
+    look_at_overlaps(here, initial_packing(start, static_cast<int>(k)), file);
   }
 }
 

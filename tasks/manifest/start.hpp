@@ -18,6 +18,7 @@ struct Start {
   /// density to which each packing is strained before the protocol starts; nullopt: packings are not strained
   std::optional<double> density{};
   JamStage stage = JamStage::compression;  ///< first stage of the protocol
+  std::optional<double> gap{};             ///< with the stage as_given: pairs with a smaller gap count as contacts
   TypeNames types{};                       ///< solids of the particle types whose shapes are not in the files
 };
 
@@ -31,6 +32,7 @@ void describe(Fields& field, Start& start);
 /// - There are fewer files than replicates.
 /// - A file cannot be read, or does not contain a packing of the particles in the manifest.
 /// - A file has changed since its digest was computed.
+/// - The stage is as_given, and a measure needs states of a decompression, or /start/gap is given with another stage.
 /// - The initial density is not below max_density, or is below half of compression_step.
 /// - The cell is not a cube, but /protocol/cell is not "free": a prescribed cell shape is always a cube.
 /// - The cell is so small that a particle could touch two images of another one.

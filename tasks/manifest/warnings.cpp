@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <set>
 #include <utility>
@@ -29,6 +30,9 @@ constexpr std::array known{
 /// Three standard deviations of φ_J between packings with N = 100. The φ_J of cubes varies more; for cubes this is less
 /// than one standard deviation.
 constexpr double scatter = 0.03;
+
+/// Relative change of a volume that a user should know.
+constexpr double noticeable_change = 1e-5;
 
 /// At Δφ = 0.008, methods other than Newton's and the multipliers still have residuals of 3e-4 and more after so many
 /// evaluations. At Δφ = 0.03, most reach 1e-6.
@@ -158,6 +162,17 @@ void look_at_start(const StartFile& file, Warnings& warnings) {
   constexpr double ordered = 0.75;
   for (const auto& note : file.notes) warnings.add_at("/start/packing", fmt::format("{}: {}", file.path, note));
   if (!file.packing) return;
+  // In a jammed packing at the target energy, the deepest overlap is about 0.02.
+  constexpr double deep = 0.03, shallower = 0.7;
+  const auto overlap =
+      fmt::format("{}: the deepest overlap is {:.2g} of the volume of a particle", file.path, file.deepest_overlap);
+  if (file.deepest_reordered && *file.deepest_reordered < shallower * file.deepest_overlap)
+    warnings.add_at("/start/packing",
+                    fmt::format("{}, but {:.2g} if the quaternions have the order w x y z; if they have, write them in "
+                                "the order x y z w",
+                                overlap, *file.deepest_reordered));
+  else if (file.deepest_overlap > deep)
+    warnings.add_at("/start/packing", overlap + "; check the unit of length, the cell and the orientations");
   const auto order = order_of(*file.packing, {});
   if (!order.S || *order.S <= std::max(ordered, 2 * order.random_S)) return;
   warnings.add_at("/start/packing",
@@ -269,8 +284,12 @@ std::vector<std::string> warnings_of(const Manifest& manifest) {
       }
     }
   }
-  for (const auto& [name, definition] : manifest.definitions)
+  for (const auto& [name, definition] : manifest.definitions) {
     warnings.add_at("/solids/" + name, precision_warning(definition.solid));
+    if (std::abs(definition.report.volume_change) > noticeable_change)
+      warnings.add_at("/solids/" + name,
+                      fmt::format("the repairs changed the volume by {:.2g} %", 100 * definition.report.volume_change));
+  }
   if (manifest.start) {
     for (const auto& file : manifest.start->files) look_at_start(file, warnings);
   }

@@ -86,12 +86,12 @@ Clusters clusters_of(const Packing& packing, const ClassifiedContacts& classifie
   return record;
 }
 
-Measurement measure_clusters(const JamResult& jam, const MeasureOptions&) {
+Measurement measure_clusters(const JamResult& jam, const MeasureOptions& options) {
   Measurement measurement;
   PackingEnergy energy;
   const auto nearest = nearest_state(jam);
   for (std::size_t k = 0; k < jam.states.size(); ++k) {
-    const auto classified = classified_contacts(jam.states[k], energy);
+    const auto classified = classified_contacts(jam.states[k], energy, options.gap);
     measurement.states.push_back(written(State{clusters_of(jam.states[k], classified, k == nearest)}));
   }
   return measurement;
@@ -99,7 +99,10 @@ Measurement measure_clusters(const JamResult& jam, const MeasureOptions&) {
 
 }  // namespace
 
-const MeasureDefinition measures::clusters{
-    .state = part_of<State>(), .measure = measure_clusters, .by_default = true, .at_zero_pressure = true};
+const MeasureDefinition measures::clusters{.state = part_of<State>(),
+                                           .measure = measure_clusters,
+                                           .by_default = true,
+                                           .at_zero_pressure = true,
+                                           .as_given = true};
 
 }  // namespace isojam

@@ -191,7 +191,7 @@ Measurement measure_contacts(const JamResult& jam, const MeasureOptions& options
   measurement.replicate = written(replicate);
   for (std::size_t k = 0; k < jam.states.size(); ++k) {
     const Packing& packing = jam.states[k];
-    const auto classified = classified_contacts(packing, energy);
+    const auto classified = classified_contacts(packing, energy, options.gap);
     ContactsOfState state{contact_record(classified.analysis)};
     const AngleHistogram histogram = histogram_of(classified);
     state.contacts.angle_bins = bins_of(histogram);
@@ -216,6 +216,7 @@ const MeasureDefinition measures::contacts{.state = part_of<ContactsOfState>(),
                                            .measure = measure_contacts,
                                            .flags = flags,
                                            .by_default = true,
-                                           .at_zero_pressure = true};
+                                           .at_zero_pressure = true,
+                                           .as_given = true};
 
 }  // namespace isojam

@@ -129,6 +129,6 @@ Measurement measure_gaps(const JamResult& jam, const MeasureOptions&) {
 
 }  // namespace
 
-const MeasureDefinition measures::gaps{.state = part_of<State>(), .measure = measure_gaps};
+const MeasureDefinition measures::gaps{.state = part_of<State>(), .measure = measure_gaps, .as_given = true};
 
 }  // namespace isojam

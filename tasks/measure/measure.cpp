@@ -27,7 +27,8 @@ std::optional<std::size_t> nearest_state(const JamResult& jam) {
   assert(jam.states.size() == jam.state_steps.size());
   std::optional<std::size_t> nearest;
   for (std::size_t i = 0; i < jam.states.size(); ++i) {
-    if (jam.states[i].size() == 0 || jam.path[jam.state_steps[i]].energy_per_particle == 0) continue;
+    const auto& step = jam.path[jam.state_steps[i]];
+    if (jam.states[i].size() == 0 || (step.energy_per_particle == 0 && step.stage != JamStage::as_given)) continue;
     if (!nearest || jam.states[i].density() < jam.states[*nearest].density()) nearest = i;
   }
   return nearest;

@@ -19,7 +19,8 @@ struct MeasureOptions {
   int modes = 50;  ///< number of vibrational modes at each end of the spectrum; the paper averages over 50 modes
   ShearOptions shear;
   bool exponents_of_all_states = false;  ///< false: the measure `exponents` measures only the state nearest jamming
-  Cohesion cohesion{};  ///< cohesion that acts in the states; by default none
+  Cohesion cohesion{};                   ///< cohesion that acts in the states; by default none
+  double gap = 0;                        ///< pairs with a smaller gap count as contacts; only in packings as given
 };
 
 /// Part of a record that one measure writes. If a number is null, another field states the reason.
@@ -56,6 +57,7 @@ struct MeasureDefinition {
   bool needs_minima = false;
   /// true if the measure can be computed for packings with cohesion at zero pressure
   bool at_zero_pressure = false;
+  bool as_given = false;  ///< true if the measure can be computed for a packing that was not relaxed
 };
 
 inline const MeasureDefinition& definition_of(Measure measure) {
@@ -70,7 +72,8 @@ Measurement measure(Measure what, const JamResult& jam, const MeasureOptions& op
 Measurement measure_nearest(Measure what, const JamResult& jam, const MeasureOptions& options);
 
 /// Index in jam.states of the nearest state: the state with the lowest density among the states with contacts, whose
-/// energy is not 0. States without particles are skipped. nullopt if no state has contacts.
+/// energy is not 0. A packing as given counts with any energy. States without particles are skipped. nullopt if no
+/// state has contacts.
 std::optional<std::size_t> nearest_state(const JamResult& jam);
 
 }  // namespace isojam

@@ -95,12 +95,12 @@ Correlation correlation_of(const Packing& packing, unsigned rank) {
   return correlation;
 }
 
-Measurement measure_order(const JamResult& jam, const MeasureOptions&) {
+Measurement measure_order(const JamResult& jam, const MeasureOptions& options) {
   Measurement measurement;
   PackingEnergy energy;
   const auto nearest = nearest_state(jam);
   for (std::size_t k = 0; k < jam.states.size(); ++k) {
-    const auto order = order_of(jam.states[k], energy.contacts(jam.states[k]));
+    const auto order = order_of(jam.states[k], contacts_of(jam.states[k], energy, options.gap).contacts);
     State state{order_record(order)};
     if (k == nearest && order.S) state.order.orientation_correlation = correlation_of(jam.states[k], order.rank);
     if (k == nearest && is_aligned(order)) measurement.flags.emplace_back(to_string(Flag::crystalline));
@@ -113,7 +113,11 @@ constexpr std::array flags{Flag::crystalline};
 
 }  // namespace
 
-const MeasureDefinition measures::order{
-    .state = part_of<State>(), .measure = measure_order, .flags = flags, .by_default = true, .at_zero_pressure = true};
+const MeasureDefinition measures::order{.state = part_of<State>(),
+                                        .measure = measure_order,
+                                        .flags = flags,
+                                        .by_default = true,
+                                        .at_zero_pressure = true,
+                                        .as_given = true};
 
 }  // namespace isojam

@@ -169,14 +169,13 @@ ClustersByMethod clusters_of(const Packing& packing, const ClassifiedContacts& c
   return record;
 }
 
-Measurement measure_percolation(const JamResult& jam, const MeasureOptions&) {
+Measurement measure_percolation(const JamResult& jam, const MeasureOptions& options) {
   Measurement measurement;
   PackingEnergy energy;
   for (const Packing& packing : jam.states) {
-    const auto classified = classified_contacts(packing, energy);
+    const auto classified = classified_contacts(packing, energy, options.gap);
     const auto found = [&](const FaceFace& face_face) { return clusters_of(packing, classified, face_face); };
-    measurement.states.push_back(
-        written(State{{found(by_fit(classified)), found(by_trough(classified))}}));
+    measurement.states.push_back(written(State{{found(by_fit(classified)), found(by_trough(classified))}}));
   }
   return measurement;
 }
@@ -184,6 +183,6 @@ Measurement measure_percolation(const JamResult& jam, const MeasureOptions&) {
 }  // namespace
 
 const MeasureDefinition measures::percolation{
-    .state = part_of<State>(), .measure = measure_percolation, .at_zero_pressure = true};
+    .state = part_of<State>(), .measure = measure_percolation, .at_zero_pressure = true, .as_given = true};
 
 }  // namespace isojam

@@ -85,11 +85,13 @@ Measurement measure_rigidity(const JamResult& jam, const MeasureOptions&) {
   PackingEnergy energy;
   for (const Packing& packing : jam.states) {
     const auto classified = classified_contacts(packing, energy);
-    const auto& [contacts, alignments, analysis] = classified;
-    const auto why = undecided(analysis);
-    State state{{rank_of(normal_constraints(packing, contacts)),
-                 why ? no_rank(*why) : rank_of(class_constraints(packing, contacts, alignments, analysis.classes)),
-                 scaled_cutoffs(packing, classified), rank_by_trough(packing, classified)}};
+    const auto& contacts = classified.contacts;
+    const auto why = undecided(classified.analysis);
+    State state{
+        {rank_of(normal_constraints(packing, contacts)),
+         why ? no_rank(*why)
+             : rank_of(class_constraints(packing, contacts, classified.alignments, classified.analysis.classes)),
+         scaled_cutoffs(packing, classified), rank_by_trough(packing, classified)}};
     measurement.states.push_back(written(state));
   }
   return measurement;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "engine/analysis/gaps.hpp"
 #include "engine/analysis/order.hpp"
 #include "engine/analysis/power_law.hpp"
 #include "engine/arithmetic/elementary.hpp"
@@ -10,9 +12,26 @@
 
 namespace isojam {
 
-ClassifiedContacts classified_contacts(const Packing& packing, PackingEnergy& energy) {
-  ClassifiedContacts classified;
-  classified.contacts = energy.contacts(packing);
+StateContacts contacts_of(const Packing& packing, PackingEnergy& energy, double gap) {
+  StateContacts all{energy.contacts(packing), {}};
+  std::map<decltype(canonical_key(NeighbourPair())), double> width;
+  if (gap > 0) {
+    for (const Gap& near : near_gaps(packing, gap)) {
+      all.contacts.push_back(as_contact(packing, near, gap));
+      width[canonical_key(near.pair)] = near.width;
+    }
+    std::sort(all.contacts.begin(), all.contacts.end(),
+              [](const Contact& a, const Contact& b) { return canonical_key(a.pair) < canonical_key(b.pair); });
+  }
+  for (const Contact& contact : all.contacts) {
+    const auto found = width.find(canonical_key(contact.pair));
+    all.gaps.push_back(found == width.end() ? 0 : found->second);
+  }
+  return all;
+}
+
+ClassifiedContacts classified_contacts(const Packing& packing, PackingEnergy& energy, double gap) {
+  ClassifiedContacts classified{contacts_of(packing, energy, gap), {}, {}};
   classified.alignments = alignments(packing.solids, classified.contacts);
   classified.analysis = analyse_contacts(packing.solids, packing.size(), classified.contacts, classified.alignments);
   classified.analysis.Q6 = contact_q6(classified.contacts);

@@ -16,13 +16,20 @@ namespace isojam {
 /// Precision of all measures. They use both doubles of each coordinate, even if the minimiser used only the first.
 inline constexpr Precision state_precision = Precision::double_double;
 
-/// The contacts of a state, their alignment angles and their classes.
-struct ClassifiedContacts {
+/// The contacts of a state.
+struct StateContacts {
   std::vector<Contact> contacts;
+  std::vector<double> gaps;  ///< gap of each contact: 0 if the particles overlap
+};
+/// All contacts, sorted by (a, b, shift). With gap > 0, pairs with a smaller gap count too, see as_contact().
+StateContacts contacts_of(const Packing& packing, PackingEnergy& energy, double gap);
+
+/// The contacts of a state, their alignment angles and their classes.
+struct ClassifiedContacts : StateContacts {
   std::vector<Alignment> alignments;
   ContactAnalysis analysis;
 };
-ClassifiedContacts classified_contacts(const Packing& packing, PackingEnergy& energy);
+ClassifiedContacts classified_contacts(const Packing& packing, PackingEnergy& energy, double gap = 0);
 
 /// The reason why the contacts cannot be classified; nullopt if they can.
 std::optional<std::string_view> undecided(const ContactAnalysis& analysis);

@@ -19,6 +19,10 @@ std::string read_named_file(const JsonPlace& place, const std::string& path, std
     return read_file(path);
   } catch (const FileError& error) {
     if (error.reason() == FileError::Reason::resource_failure) throw;
+    if (place.value().is_string() && place.value().get<std::string>().starts_with('~'))
+      place.refuse_with_remedy(
+          fmt::format("{}: ~ is not the home folder here, because only the shell replaces it", error.what()),
+          "write the path of the home folder, or a path relative to the manifest");
     place.refuse(error.what(), std::string(allowed));
   }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 
 #include "engine/geometry/hull.hpp"
@@ -11,6 +12,7 @@
 #include "tasks/io/fields.hpp"
 #include "tasks/packings/content_error.hpp"
 #include "tasks/packings/intake.hpp"
+#include "tasks/packings/planes.hpp"
 #include "tasks/packings/surface.hpp"
 
 namespace isojam {
@@ -18,11 +20,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::array<std::string_view, 3> ways{"box", "file", "vertices"};
-constexpr std::array<std::string_view, 6> definition_keys{"box", "file", "vertices", "merge", "hull", "corners"};
+constexpr std::array<std::string_view, 4> ways{"box", "file", "vertices", "planes"};
+constexpr std::array<std::string_view, 4> repair_keys{"merge", "hull", "corners", "max_volume_change"};
+constexpr std::array<std::string_view, 9> definition_keys{
+    "box", "file", "vertices", "planes", "merge", "hull", "corners", "max_volume_change", "volume_change"};
 constexpr std::string_view allowed_definition =
-    "{\"box\": [a, b, c]}, {\"file\": \"x.off\"} or {\"vertices\": [[x, y, z], ...]}";
-constexpr std::string_view allowed_file = "an OFF, STL or OBJ file of one convex polyhedron";
+    "{\"box\": [a, b, c]}, {\"file\": \"x.off\"}, {\"vertices\": [[x, y, z], ...]} or {\"planes\": [[nx, ny, nz, d], "
+    "...]}";
+constexpr std::string_view allowed_file = "an OFF, STL, OBJ, PLY or SHP file of one convex polyhedron";
 
 std::vector<Vector3d> box_vertices(const std::array<double, 3>& edges) {
   std::vector<Vector3d> vertices;
@@ -32,12 +37,13 @@ std::vector<Vector3d> box_vertices(const std::array<double, 3>& edges) {
   return vertices;
 }
 
-Json vertices_schema() {
-  const Json vertex{{"type", "array"},
-                    {"minItems", 3},
-                    {"maxItems", 3},
-                    {"items", {{"type", "number"}, {"minimum", -1e9}, {"maximum", 1e9}}}};
-  return {{"type", "array"}, {"minItems", 4}, {"maxItems", most_surface_points}, {"items", vertex}};
+/// A list of at least four rows of `width` numbers.
+Json rows_schema(int width, std::size_t most) {
+  const Json row{{"type", "array"},
+                 {"minItems", width},
+                 {"maxItems", width},
+                 {"items", {{"type", "number"}, {"minimum", -1e9}, {"maximum", 1e9}}}};
+  return {{"type", "array"}, {"minItems", 4}, {"maxItems", most}, {"items", row}};
 }
 
 /// The keys of a definition.
@@ -45,6 +51,7 @@ struct Definition {
   std::array<double, 3> box{1, 1, 1};
   std::string file;
   RepairOptions repairs;
+  double volume_change = 0;
 };
 
 Fields fields_of(Definition& of, std::string_view way) {
@@ -54,18 +61,26 @@ Fields fields_of(Definition& of, std::string_view way) {
     return field;
   }
   if (way == "file")
-    field("file", of.file,
-          "File in the format OFF, STL (text or binary) or OBJ. Its path is relative to the manifest. The faces must "
-          "form the closed surface of one convex solid.");
+    field(
+        "file", of.file,
+        "File in the format OFF, STL or PLY (text or binary), OBJ, or SHP (Rockable, exaDEM). Its path is relative to "
+        "the manifest. The faces must form the closed surface of one convex solid.");
   if (way == "vertices") {
     // read_corners() reads them.
-    field.custom("vertices", {{}, [](const JsonPlace&) {}, vertices_schema(), "list of vertices"},
+    field.custom("vertices", {{}, [](const JsonPlace&) {}, rows_schema(3, most_surface_points), "list of vertices"},
                  "Corners of the convex hull, with any unit of length and any origin. At most 192 edges and 128 faces "
                  "may remain after the repairs that the keys `merge`, `hull` and `corners` request.");
   }
+  if (way == "planes") {
+    field.custom(
+        "planes", {{}, [](const JsonPlace&) {}, rows_schema(4, most_planes), "list of planes"},
+        "The solid n·x ≤ d for all planes. Each plane has the three components of its outward normal n, of any "
+        "length, and the number d. Planes that do not touch the solid are allowed.");
+  }
   field("merge", of.repairs.merge,
-        "Length within which points are welded and faces are joined, relative to the diameter of the solid. Points "
-        "that are at most this far apart are welded into one. Adjacent faces become one exactly planar face if all "
+        "Length within which points are welded and faces are joined, relative to the diameter of the solid. Each "
+        "point is welded to the first remaining point that is at most this far away. Adjacent faces become one exactly "
+        "planar face if all "
         "their corners are within this distance of one plane. Points that are not corners are omitted if they are "
         "within this distance of a face. A corner moves by at most five of these lengths. Without this key only "
         "rounding errors (64 ulp) are removed.")
@@ -81,33 +96,30 @@ Fields fields_of(Definition& of, std::string_view way) {
         "and `isojam validate` prints the change of the volume. Without this key all corners are kept.")
       .range({4, ConvexSolid::max_vertices})
       .optional();
+  field("max_volume_change", of.repairs.max_volume_change,
+        "Largest relative change of the volume by the repairs. A solid that they would change more is refused.")
+      .range({0, 1})
+      .optional()
+      .finite();
+  if (way == "vertices")
+    field("volume_change", of.volume_change,
+          "Relative change of the volume by repairs that have been made. isojam writes this key into the copy of the "
+          "manifest in a results directory.")
+        .range({-1, 1})
+        .optional()
+        .finite();
   return field;
-}
-
-/// The change of a definition that removes an error.
-std::string remedy_for(const NoSolid& error) {
-  // A solid with triangular faces only, such as one whose corners were reduced, has the most edges for its corners.
-  constexpr int always_allowed = ConvexSolid::max_edges / 3 + 2;
-  switch (error.cause()) {
-    case NoSolid::Cause::equal_points: return "remove one of them, or set \"hull\" to true";
-    case NoSolid::Cause::not_a_corner: return "remove it, or set \"hull\" to true to omit such points";
-    case NoSolid::Cause::too_large: return fmt::format("set \"corners\" to {} or less", always_allowed);
-    case NoSolid::Cause::not_planar: return "use a smaller \"merge\", or write the vertices with more digits";
-    case NoSolid::Cause::other: break;
-  }
-  return "use " + allowed_features();
 }
 
 SolidDefinition read_solid_file(const JsonPlace& place, const std::string& name, const RepairOptions& options) {
   const auto path =
-      (std::filesystem::path(place.file()).parent_path() / place.text("the path of an OFF, STL or OBJ file")).string();
+      (std::filesystem::path(place.file()).parent_path() / place.text("the path of an OFF, STL, OBJ, PLY or SHP file"))
+          .string();
   try {
     const auto intake = solid_in(read_mesh(read_named_file(place, path, allowed_file)), options);
     return {made_solid(place, name, intake.vertices), intake.report, intake.notes};
   } catch (const ContentError& error) {
     refuse_content(place, path, error, allowed_file);
-  } catch (const NoSolid& error) {
-    refuse_content(place, path, ContentError(error.what(), remedy_for(error)), allowed_file);
   }
 }
 
@@ -120,7 +132,33 @@ SolidDefinition read_corners(const JsonPlace& place, const std::string& name, co
     const auto result = repaired(points, options);
     return {made_solid(place, name, result.vertices), result.report};
   } catch (const NoSolid& error) {
-    place_of_error(place, error, points.size()).refuse_with_remedy(error.what(), remedy_for(error));
+    place_of_error(place, error, points.size()).refuse_with_remedy(error.what(), remedy_for(error, points, options));
+  }
+}
+
+/// The rows of numbers at a place, each of the same width.
+std::vector<Eigen::Vector4d> read_planes(const JsonPlace& place) {
+  std::vector<Eigen::Vector4d> planes(
+      place.expect_entries(most_planes, fmt::format("4 to {} planes of four numbers each", most_planes)));
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    place.at(k).expect_length(4, "four numbers");
+    for (std::size_t c = 0; c < 4; ++c) planes[k][static_cast<Eigen::Index>(c)] = place.at(k).at(c).number({-1e9, 1e9});
+  }
+  return planes;
+}
+
+SolidDefinition read_half_spaces(const JsonPlace& place, const std::string& name, RepairOptions options) {
+  std::vector<Vector3d> corners;
+  try {
+    corners = corners_between(read_planes(place));
+    options.hull = true;
+    const auto result = repaired(corners, options);
+    // Corners in which several planes meet were computed several times.
+    return {made_solid(place, name, result.vertices), {.volume_change = result.report.volume_change}};
+  } catch (const ContentError& error) {
+    place.refuse_with_remedy(error.what(), error.remedy());
+  } catch (const NoSolid& error) {
+    place.refuse_with_remedy(error.what(), remedy_for(error, corners, options));
   }
 }
 
@@ -135,7 +173,8 @@ SolidDefinition read_definition(const JsonPlace& place, const std::string& name)
   if (std::count_if(ways.begin(), ways.end(), is_given) != 1)
     place.refuse("the solid needs exactly one definition", std::string(allowed_definition));
   const auto way = *std::find_if(ways.begin(), ways.end(), is_given);
-  for (const std::string key : {"merge", "hull", "corners"}) {
+  for (const auto repair : repair_keys) {
+    const std::string key(repair);
     if (way == "box" && place.has(key)) place.at(key).refuse_with_remedy("a box needs no repair", "remove the key");
   }
   Definition definition;
@@ -143,7 +182,12 @@ SolidDefinition read_definition(const JsonPlace& place, const std::string& name)
   if (!place.is_sound()) return {placeholder(name)};
   const auto inner = place.at(std::string(way));
   if (way == "file") return read_solid_file(inner, name, definition.repairs);
-  if (way == "vertices") return read_corners(inner, name, definition.repairs);
+  if (way == "planes") return read_half_spaces(inner, name, definition.repairs);
+  if (way == "vertices") {
+    auto solid = read_corners(inner, name, definition.repairs);
+    if (definition.volume_change != 0) solid.report.volume_change = definition.volume_change;
+    return solid;
+  }
   return {solid_from(inner, name, box_vertices(definition.box))};
 }
 
@@ -204,15 +248,29 @@ Solid read_solid_name(const JsonPlace& place, const SolidDefinitions& definition
   place.refuse(fmt::format("unknown solid {}", compact(place.value())), allowed, nearest_name(name, names));
 }
 
-Json definitions_json(const std::vector<Solid>& solids) {
-  Json definitions;
-  for (const auto& solid : solids) {
-    if (!solid.is_defined()) continue;
-    Json one;
-    put_solid(one, solid);
-    definitions[std::string(to_string(solid))]["vertices"] = one.at("vertices");
+std::map<std::string, double> volume_changes(const Mixture& mixture, const SolidDefinitions& definitions) {
+  constexpr double noticeable = 1e-9;
+  std::map<std::string, double> changes;
+  for (const auto& kind : mixture.kinds()) {
+    const auto found = definitions.find(to_string(kind.solid));
+    if (found != definitions.end() && std::abs(found->second.report.volume_change) > noticeable)
+      changes[found->first] = found->second.report.volume_change;
   }
-  return definitions;
+  return changes;
+}
+
+Json definitions_json(const std::vector<Mixture>& mixtures, const SolidDefinitions& definitions) {
+  Json json;
+  for (const auto& mixture : mixtures) {
+    for (const auto& kind : mixture.kinds()) {
+      if (!kind.solid.is_defined()) continue;
+      Json one;
+      put_solid(one, kind.solid);
+      json[std::string(to_string(kind.solid))]["vertices"] = one.at("vertices");
+    }
+    for (const auto& [name, change] : volume_changes(mixture, definitions)) json[name]["volume_change"] = change;
+  }
+  return json;
 }
 
 }  // namespace isojam

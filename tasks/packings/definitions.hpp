@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/geometry/repair.hpp"
+#include "engine/packing/mixture/mixture.hpp"
 #include "tasks/packings/solid_json.hpp"
 
 namespace isojam {
@@ -48,7 +49,10 @@ std::string definition_text(const SolidDefinition& definition);
 /// almost in one plane.
 std::string precision_warning(const Solid& solid);
 
-/// Definitions of user-defined solids by their vertices, as JSON. null if there are no user-defined solids.
-Json definitions_json(const std::vector<Solid>& solids);
+/// The relative changes of the volumes of a mixture's solids by repairs, by names. Other solids are left out.
+std::map<std::string, double> volume_changes(const Mixture& mixture, const SolidDefinitions& definitions);
+
+/// Definitions of the user-defined solids of mixtures by their vertices, as JSON. null if there are none.
+Json definitions_json(const std::vector<Mixture>& mixtures, const SolidDefinitions& definitions);
 
 }  // namespace isojam

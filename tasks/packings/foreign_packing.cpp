@@ -161,6 +161,16 @@ PeriodicCell cell_of(const Eigen::Matrix3d& vectors) {
 
 }  // namespace
 
+Eigen::Quaterniond unit_quaternion(const Eigen::Quaterniond& q, std::size_t particle, std::string_view order,
+                                   std::size_t line) {
+  constexpr double rounding = 1e-3;
+  // Written so that NaN is refused too.
+  if (!(std::abs(q.norm() - 1) <= rounding))
+    throw ContentError(fmt::format("the orientation of particle {} has the length {:.6g}", particle, q.norm()),
+                       fmt::format("write unit quaternions {}", order), line);
+  return q.normalized();
+}
+
 std::size_t index_of_frame(std::size_t frames, int frame) {
   const auto count = static_cast<std::int64_t>(frames), index = frame < 0 ? count + frame : frame;
   if (count == 0) throw ContentError("the file has no frame");

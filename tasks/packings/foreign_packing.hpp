@@ -35,9 +35,14 @@ struct ForeignPacking {
 /// there are any. Frame −1 is the last one. Throws ContentError.
 ForeignPacking read_gsd_packing(const std::string& bytes, int frame);
 
-/// Reads a frame of an extended XYZ file: Lattice, species (the name of a solid), pos, orientation (x, y, z, w), and
-/// size if particles have different sizes. Frame −1 is the last one. Throws ContentError.
+/// Reads a frame of an extended XYZ file: Lattice, solid or species (the name of a solid), pos, orientation (x, y, z,
+/// w), and size if particles have different sizes. Frame −1 is the last one. Throws ContentError.
 ForeignPacking read_xyz_packing(std::string_view text, int frame);
+
+/// The unit quaternion. Throws ContentError if its length differs from 1 by more than numbers with four digits do.
+/// `order` names the coefficients.
+Eigen::Quaterniond unit_quaternion(const Eigen::Quaterniond& q, std::size_t particle, std::string_view order,
+                                   std::size_t line = 0);
 
 /// Index of a frame that /start/frame gives: from 0, or from −1 for the last one. Throws ContentError if the file does
 /// not have this frame.

@@ -4,6 +4,7 @@
 
 #include "tasks/io/json.hpp"
 #include "tasks/packings/foreign_packing.hpp"
+#include "tasks/packings/intake.hpp"
 #include "tasks/packings/packing_json.hpp"
 #include "tasks/packings/text_lines.hpp"
 
@@ -21,6 +22,41 @@ Eigen::Matrix3d cell_of(const std::vector<double>& box) {
   return cell;
 }
 
+/// Reads the vertices of a shape. Returns false if there are none.
+bool read_vertices(const Json& shape, ForeignPacking::Type& type) {
+  if (!shape.contains("vertices") || !shape.at("vertices").is_array()) {
+    type.foreign_shape = "without vertices";
+    return false;
+  }
+  for (const auto& vertex : shape.at("vertices")) {
+    if (!vertex.is_array() || vertex.size() != 3 ||
+        !std::all_of(vertex.begin(), vertex.end(), [](const Json& x) { return x.is_number(); }))
+      throw ContentError(fmt::format("a vertex of the shape of type {} is not three numbers", in_quotes(type.name)));
+    type.vertices.emplace_back(vertex[0].get<double>(), vertex[1].get<double>(), vertex[2].get<double>());
+  }
+  return true;
+}
+
+/// A shape of vertices and faces, which must be the surface of a convex solid.
+void read_convex_mesh(const Json& shape, ForeignPacking::Type& type) {
+  if (!read_vertices(shape, type)) return;
+  Mesh mesh{type.vertices, {}, {}};
+  for (const auto& face : shape.value("indices", Json::array())) {
+    auto& corners = mesh.faces.emplace_back().points;
+    for (const auto& corner : face) {
+      if (!corner.is_number_unsigned() || corner.get<std::size_t>() >= mesh.points.size())
+        throw ContentError(fmt::format("a face of the shape of type {} has no valid index", in_quotes(type.name)));
+      corners.push_back(corner.get<std::size_t>());
+    }
+  }
+  try {
+    type.vertices = solid_in(mesh, {}).vertices;
+  } catch (const ContentError& error) {
+    type.vertices.clear();
+    type.foreign_shape = fmt::format("of the kind \"Mesh\", {}", error.what());
+  }
+}
+
 /// The shape of a type. A text such as "" or "{}" describes no shape.
 void read_shape(const std::string& text, ForeignPacking::Type& type) {
   if (text.find_first_not_of(" \t\n") == std::string::npos) return;
@@ -31,20 +67,15 @@ void read_shape(const std::string& text, ForeignPacking::Type& type) {
     return;
   }
   const auto kind = shape.contains("type") && shape.at("type").is_string() ? shape.at("type").get<std::string>() : "";
+  if (kind == "Mesh") {
+    read_convex_mesh(shape, type);
+    return;
+  }
   if (kind != "ConvexPolyhedron") {
     type.foreign_shape = kind.empty() ? "without a type" : "of the kind " + in_quotes(kind);
     return;
   }
-  if (!shape.contains("vertices") || !shape.at("vertices").is_array()) {
-    type.foreign_shape = "without vertices";
-    return;
-  }
-  for (const auto& vertex : shape.at("vertices")) {
-    if (!vertex.is_array() || vertex.size() != 3 ||
-        !std::all_of(vertex.begin(), vertex.end(), [](const Json& x) { return x.is_number(); }))
-      throw ContentError(fmt::format("a vertex of the shape of type {} is not three numbers", in_quotes(type.name)));
-    type.vertices.emplace_back(vertex[0].get<double>(), vertex[1].get<double>(), vertex[2].get<double>());
-  }
+  if (!read_vertices(shape, type)) return;
   if (shape.contains("rounding_radius") && shape.at("rounding_radius") != 0) type.foreign_shape = "with rounded edges";
 }
 
@@ -99,9 +130,8 @@ ForeignPacking read_gsd_packing(const std::string& bytes, int frame) {
     if (!(types[i] >= 0 && types[i] < static_cast<double>(names.size())))
       throw ContentError("a particle has an undefined type");
     const double *x = &positions[3 * i], *q = &orientations[4 * i];
-    const Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
-    if (!(orientation.norm() > 0.5)) throw ContentError(fmt::format("particle {} has no orientation", i));
-    packing.bodies.push_back({static_cast<int>(types[i]), 1, {x[0], x[1], x[2]}, orientation.normalized()});
+    const auto orientation = unit_quaternion({q[0], q[1], q[2], q[3]}, i, "w x y z");
+    packing.bodies.push_back({static_cast<int>(types[i]), 1, {x[0], x[1], x[2]}, orientation});
   }
   return packing;
 }

@@ -9,6 +9,7 @@
 
 #include "engine/arithmetic/elementary.hpp"
 #include "engine/geometry/hull.hpp"
+#include "tasks/packings/solid_json.hpp"
 #include "tasks/packings/surface.hpp"
 
 namespace isojam {
@@ -20,8 +21,13 @@ constexpr double largest_rounding = 1e-3;
 /// The hull of a surface without dents. Points that are not corners lie within the tolerance of its faces, and are
 /// omitted.
 RepairedSolid corners_of(const Surface& surface, RepairOptions options) {
+  options.measures_depth = !options.hull;
   options.hull = true;
-  return repaired(surface.points, options);
+  try {
+    return repaired(surface.points, options);
+  } catch (const NoSolid& error) {
+    throw ContentError(error.what(), remedy_for(error, surface.points, options));
+  }
 }
 
 /// The smallest of the values 1, 2, 5 × 10^k for which the mesh is accepted; nullopt if there is none of the order of
@@ -41,7 +47,7 @@ std::optional<double> fitting_merge(const Mesh& mesh, RepairOptions options, dou
     try {
       corners_of(*surface, options);
       return options.merge;
-    } catch (const NoSolid&) {
+    } catch (const ContentError&) {
       return std::nullopt;
     }
   }
@@ -79,8 +85,25 @@ void refuse_other_hull(const Surface& surface, const RepairReport& report, const
 
 }  // namespace
 
+std::string remedy_for(const NoSolid& error, std::span<const Eigen::Vector3d> points, const RepairOptions& options) {
+  if (const auto tried = tried_repair(points, options, error.cause())) {
+    std::string text;
+    const auto add = [&text](const std::string& change) { text += (text.empty() ? "set " : " and ") + change; };
+    if (tried->hull && !options.hull) add("\"hull\" to true");
+    if (tried->merge != options.merge) add(fmt::format("\"merge\" to {:g}", tried->merge));
+    if (tried->corners != options.corners) add(fmt::format("\"corners\" to {}", tried->corners));
+    if (tried->max_volume_change != options.max_volume_change)
+      add(fmt::format("\"max_volume_change\" to {:g}", tried->max_volume_change));
+    return text;
+  }
+  if (error.cause() == NoSolid::Cause::not_planar) return "write the vertices with more digits";
+  return fmt::format("use {}", allowed_features());
+}
+
 Intake solid_in(const Mesh& mesh, const RepairOptions& options) {
-  if (mesh.faces.empty()) throw ContentError("the file contains no faces");
+  if (mesh.faces.empty() && !(options.hull && !mesh.points.empty()))
+    throw ContentError("the file contains no faces",
+                       mesh.points.empty() ? "" : "set \"hull\" to true to use the convex hull of its points");
   const auto surface = checked_surface(mesh, options);
   auto result = corners_of(surface, options);
   if (!options.hull) refuse_other_hull(surface, result.report, options);

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include "tasks/io/fields.hpp"
 #include "tasks/io/hash.hpp"
+#include "tasks/packings/content_error.hpp"
+#include "tasks/packings/text_lines.hpp"
 
 namespace isojam {
 
@@ -23,13 +27,15 @@ static void describe(Fields& field, SizeShare& share) {
 
 namespace {
 
-constexpr std::array distributions{SizeLaw::discrete, SizeLaw::uniform, SizeLaw::log_normal};
+constexpr std::array distributions{SizeLaw::discrete, SizeLaw::uniform, SizeLaw::log_normal, SizeLaw::values};
 constexpr std::string_view allowed_sizes =
-    "a number in (0, 1000], {\"discrete\": [{\"size\": s, \"fraction\": f}, ...]}, {\"uniform\": [from, to]} or "
-    "{\"log_normal\": {\"median\": s, \"sigma\": standard deviation of ln volume}}";
+    "a number in (0, 1000], {\"discrete\": [{\"size\": s, \"fraction\": f}, ...]}, {\"uniform\": [from, to]}, "
+    "{\"log_normal\": {\"median\": s, \"sigma\": standard deviation of ln volume}}, {\"values\": [s, ...]} or "
+    "{\"file\": \"sizes.txt\"}";
+constexpr std::string_view allowed_size_file = "a text file of sizes";
 /// Tolerance of the sum of fractions: less than one particle of the largest possible number.
 constexpr double fraction_rounding = 1e-9;
-constexpr std::size_t most_kinds = 32;
+constexpr std::size_t most_kinds = 32, most_shares = 1000, most_sizes = 100000;
 
 template <class List, class Fraction>
 void expect_whole(const JsonPlace& place, const List& list, const Fraction& fraction) {
@@ -45,7 +51,13 @@ Fields fields_of(Sizes& sizes, SizeLaw law) {
   if (law == SizeLaw::discrete)
     field("discrete", sizes.list,
           "Discrete distribution: several sizes with their fractions. The sum of the fractions is 1.")
-        .length(1, most_kinds);
+        .length(1, most_shares);
+  if (law == SizeLaw::values)
+    field("values", sizes.values,
+          "Sizes of measured particles, in any number and order. In place of this key, `file` may name a text file of "
+          "these numbers, with a path relative to the manifest.")
+        .range(size_range)
+        .length(1, most_sizes);
   if (law == SizeLaw::uniform) {
     const auto end = [&sizes](std::size_t k) -> MemberRef { return k == 0 ? &sizes.from : &sizes.to; };
     field
@@ -64,20 +76,68 @@ Fields fields_of(Sizes& sizes, SizeLaw law) {
     };
     field.nested("log_normal", parameters, "Log-normal distribution of the particle volume V.");
   }
+  field("take", sizes.take,
+        "Choice of the sizes of n particles. `quantiles`: quantiles of the distribution, so that its moments hardly "
+        "fluctuate. `drawn`: independent random sizes, which are the same in all replicates. `in_order`: the `values` "
+        "one after another, from the first one again after the last.")
+      .optional();
+  field("seed", sizes.seed, "Seed of the sizes that are drawn.").optional();
   return field;
+}
+
+FieldEntry field_of_file(std::string& path) {
+  Fields field;
+  return field("file", path, "Text file of sizes, with a path relative to the manifest.");
+}
+
+/// The numbers in a text file, which blanks, commas or line ends separate.
+std::vector<double> read_size_file(const JsonPlace& place) {
+  const auto path = (std::filesystem::path(place.file()).parent_path() / place.text(allowed_size_file)).string();
+  auto text = read_named_file(place, path, allowed_size_file);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
+  try {
+    TextLines lines(text, '#');
+    std::vector<double> sizes;
+    for (auto word = lines.next_word(); !word.empty(); word = lines.next_word()) {
+      sizes.push_back(lines.real(word));
+      if (!(sizes.back() > 0 && sizes.back() <= size_range.high))
+        lines.refuse(fmt::format("the size {} is not in (0, {:g}]", word, size_range.high),
+                     "use another unit of length");
+    }
+    if (sizes.empty() || sizes.size() > most_sizes)
+      throw ContentError(fmt::format("it contains {} numbers", sizes.size()),
+                         fmt::format("write 1 to {} sizes", most_sizes));
+    return sizes;
+  } catch (const ContentError& error) {
+    refuse_content(place, path, error, allowed_size_file);
+  }
 }
 
 Sizes read_sizes(const JsonPlace& place) {
   if (!place.value().is_object()) return {.from = place.number(size_range)};
-  std::array<std::string_view, distributions.size()> names;
-  std::transform(distributions.begin(), distributions.end(), names.begin(), [](auto law) { return to_string(law); });
+  std::vector<std::string_view> names{"file"};
+  for (const auto law : distributions) names.push_back(to_string(law));
+  const auto is_given = [&](std::string_view name) { return place.has(std::string(name)); };
+  const auto several = std::count_if(names.begin(), names.end(), is_given);
+  const std::string key(several == 0 ? "" : *std::find_if(names.begin(), names.end(), is_given));
+  names.insert(names.end(), {"take", "seed"});
   place.expect_keys(names);
-  if (place.value().size() != 1) place.refuse("the sizes need exactly one distribution", std::string(allowed_sizes));
-  const auto key = place.value().begin().key();
+  if (several != 1) place.refuse("the sizes need exactly one distribution", std::string(allowed_sizes));
   Sizes sizes;
-  sizes.law = from_string<SizeLaw>(key).value_or(SizeLaw::fixed);
-  read_into(place, fields_of(sizes, sizes.law));
+  std::string path;
+  sizes.law = from_string<SizeLaw>(key).value_or(SizeLaw::values);
+  auto fields = fields_of(sizes, sizes.law);
+  if (key == "file") {
+    sizes.values = read_size_file(place.at("file"));
+    fields.list.front() = field_of_file(path);
+  }
+  read_into(place, fields);
   if (!place.is_sound()) return {};
+  if (sizes.take == SizeChoice::in_order && sizes.law != SizeLaw::values)
+    place.at("take").refuse("only values can be taken in order", "\"quantiles\" or \"drawn\"");
+  if (sizes.law == SizeLaw::values && sizes.take != SizeChoice::in_order)
+    std::sort(sizes.values.begin(), sizes.values.end());
   if (sizes.law == SizeLaw::discrete)
     expect_whole(place.at(key), sizes.list, [](const SizeShare& each) { return each.fraction; });
   if (sizes.law == SizeLaw::uniform && !(sizes.from < sizes.to))
@@ -88,17 +148,25 @@ Sizes read_sizes(const JsonPlace& place) {
 Json to_json(const Sizes& sizes) {
   if (sizes.law == SizeLaw::fixed) return sizes.from;
   auto copy = sizes;
-  return written(fields_of(copy, sizes.law));
+  auto json = written(fields_of(copy, sizes.law));
+  if (sizes.take != SizeChoice::drawn) json.erase("seed");
+  if (sizes.take == SizeChoice::quantiles) json.erase("take");
+  return json;
 }
 
 Json sizes_schema() {
   Sizes sizes;
   Json json{{"description",
              "Size of the particles of this kind, as a length relative to the solid at unit volume. If it is a "
-             "distribution of sizes, the sizes of the particles are quantiles of this distribution. isojam scales all "
+             "distribution of sizes, the sizes of the particles are quantiles of this distribution, unless `take` "
+             "requests another choice. isojam scales all "
              "sizes so that the mean particle volume is 1."},
             {"oneOf", {{{"type", "number"}, {"exclusiveMinimum", size_range.low}, {"maximum", size_range.high}}}}};
   for (const auto law : distributions) json["oneOf"].push_back(object_schema(fields_of(sizes, law)));
+  std::string file;
+  auto of_file = fields_of(sizes, SizeLaw::values);
+  of_file.list.front() = field_of_file(file);
+  json["oneOf"].push_back(object_schema(of_file));
   return {{"$ref", "#/definitions/sizes"}, {"definitions", {{"sizes", std::move(json)}}}};
 }
 

@@ -33,9 +33,10 @@ struct Counts {
 };
 
 /// The number of edges is often wrong or missing, and is not used.
-Counts read_counts(TextLines& lines) {
+Counts read_counts(TextLines& lines, std::string_view after_keyword) {
   auto words = lines.words();
-  words.erase(words.begin());
+  words.front() = after_keyword;
+  if (after_keyword.empty()) words.erase(words.begin());
   if (!words.empty() && lower_case(words[0]) == "binary")
     lines.refuse("binary OFF files are not supported", "save the solid as text");
   if (words.empty() && lines.next()) words = lines.words();
@@ -46,7 +47,7 @@ Counts read_counts(TextLines& lines) {
   const auto points = lines.integer(words[0], 4, most_points, "number of vertices");
   auto faces_word = words[1];
   if (faces_word.starts_with('f')) faces_word.remove_prefix(1);  // the library coxeter writes "4 f4 6"
-  const auto faces = lines.integer(faces_word, 4, most_faces, "number of faces");
+  const auto faces = lines.integer(faces_word, 0, most_faces, "number of faces");
   return {static_cast<std::size_t>(points), static_cast<std::size_t>(faces)};
 }
 
@@ -81,8 +82,11 @@ Mesh::Face read_face(const TextLines& lines, std::size_t points) {
 Mesh read_off(std::string_view text) {
   TextLines lines(text, '#');
   lines.next();
-  const VertexColumns columns(lines, lines.words().front());
-  const auto counts = read_counts(lines);
+  // Some files have the number of vertices in the same word: "OFF8 6 12".
+  const auto word = lines.words().front();
+  const auto keyword = word.substr(0, lower_case(word).find("off") + 3);
+  const VertexColumns columns(lines, keyword);
+  const auto counts = read_counts(lines, word.substr(keyword.size()));
   Mesh mesh;
   for (std::size_t k = 0; k < counts.points; ++k) {
     next_of(lines, k, counts.points, "vertices");
@@ -90,7 +94,7 @@ Mesh read_off(std::string_view text) {
     if (words.size() < columns.least || words.size() > columns.most)
       lines.refuse(fmt::format("the line of vertex {} has {} numbers instead of {}", k, words.size(), columns.least),
                    "correct the line, the number of vertices, or the keyword: COFF for colours, NOFF for normals");
-    mesh.points.push_back(point_of(lines, 0));
+    mesh.points.push_back(point_of(lines, lines.words(), 0));
   }
   for (std::size_t k = 0; k < counts.faces; ++k) {
     next_of(lines, k, counts.faces, "faces");

@@ -52,7 +52,7 @@ std::string repairs_text(const RepairReport& report) {
   add(text, report.removed_corners, "corner removed", "corners removed");
   if (text.empty()) return "no repairs";
   if (report.largest_move > 0) text += fmt::format("; largest move of a corner {:.2g} diameters", report.largest_move);
-  if (report.volume_change != 0) text += fmt::format("; volume changed by {:.2g}", report.volume_change);
+  if (report.volume_change != 0) text += fmt::format("; volume changed by {:.2g} %", 100 * report.volume_change);
   return text;
 }
 

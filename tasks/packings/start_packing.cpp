@@ -34,6 +34,7 @@ Packing read_any(const std::string& bytes, StartFile& file, const Mixture& mixtu
   if (bytes.starts_with(gsd_magic)) return converted(read_gsd_packing(bytes, file.frame));
   if (!bytes.starts_with('{')) {
     refuse_other_text(bytes);
+    file.is_xyz = true;
     return converted(read_xyz_packing(bytes, file.frame));
   }
   if (!types.empty()) throw ContentError("packings of isojam contain their solids", "remove /start/types");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,12 @@ struct StartFile {
   int frame = -1;
   std::string digest;                        ///< digest of the bytes of the file
   std::shared_ptr<const Packing> packing{};  ///< the packing; null until load() is called
-  std::vector<std::string> notes{};          ///< notes for the user about the content of the file
+  /// Largest overlap volume of two particles, divided by that of the smaller one; and what it would be if the
+  /// quaternions of an XYZ file had the order w x y z. load_start() sets them.
+  double deepest_overlap = 0;
+  std::optional<double> deepest_reordered{};
+  bool is_xyz = false;               ///< true for extended XYZ, whose quaternions have the order x y z w
+  std::vector<std::string> notes{};  ///< notes for the user about the content of the file
 };
 
 /// Makes the packing from the bytes of a file, and sets `digest`, `packing` and `notes`. The file must contain n

@@ -50,7 +50,7 @@ bool spans_area(const Mesh& mesh, const Mesh::Face& face) {
 }
 
 /// The points of the faces with an area.
-Distinct distinct_points(const Mesh& mesh) {
+Distinct distinct_points(const Mesh& mesh, std::size_t most) {
   constexpr auto none = static_cast<std::size_t>(-1);
   Distinct distinct;
   distinct.index.assign(mesh.points.size(), none);
@@ -64,9 +64,11 @@ Distinct distinct_points(const Mesh& mesh) {
       const auto [found, added] = known.try_emplace({v.x() + 0, v.y() + 0, v.z() + 0}, distinct.points.size());
       if (added) distinct.points.push_back(v);
       distinct.index[corner] = found->second;
-      if (distinct.points.size() > most_surface_points)
-        throw NoSurface(fmt::format("the surface has more than {} different points", most_surface_points),
-                        "simplify the surface in the program that made it", face.line);
+      if (distinct.points.size() > most)
+        throw NoSurface(fmt::format("the surface has more than {} different points", most),
+                        "set \"hull\" to true and \"corners\" to 66 to use a part of the convex hull, or simplify the "
+                        "surface in the program that made it",
+                        face.line);
     }
   }
   distinct.unused = static_cast<int>(std::count(distinct.index.begin(), distinct.index.end(), none));
@@ -295,12 +297,13 @@ class Checks {
 double surface_tolerance(double merge) { return std::max(digits, 2 * merge); }
 
 Surface points_of(const Mesh& mesh) {
-  auto distinct = distinct_points(mesh);
+  if (mesh.faces.empty()) return {mesh.points};
+  auto distinct = distinct_points(mesh, most_points);
   return {std::move(distinct.points), distinct.unused};
 }
 
 Surface closed_surface(const Mesh& mesh, double merge) {
-  const auto distinct = distinct_points(mesh);
+  const auto distinct = distinct_points(mesh, most_surface_points);
   Checks checks(mesh, distinct, merge);
   checks.run();
   return {checks.points(), distinct.unused, checks.diameter(), checks.volume(), checks.area()};

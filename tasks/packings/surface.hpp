@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "engine/geometry/repair.hpp"
 #include "tasks/packings/content_error.hpp"
 #include "tasks/packings/mesh.hpp"
 
@@ -29,10 +30,10 @@ struct Surface {
 };
 
 /// Largest number of different points of a surface. The search for their diameter visits all pairs.
-inline constexpr std::size_t most_surface_points = 5000;
+inline constexpr std::size_t most_surface_points = most_hull_corners;
 
-/// The points of all faces with at least three different corners, without checks of the surface. Points with equal
-/// coordinates are one point.
+/// The points of all faces with at least three different corners, or all points of a file without faces, without checks
+/// of the surface. Points with equal coordinates are one point.
 Surface points_of(const Mesh& mesh);
 
 /// Tolerance of the checks, in units of the diameter, for a mesh whose points are welded within `merge` diameters. It

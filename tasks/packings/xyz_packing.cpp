@@ -30,6 +30,7 @@ class Header {
     }
   }
 
+  bool has(std::string_view key) const { return values_.contains(key); }
   const std::string& at(std::string_view key, std::string_view example) const {
     const auto found = values_.find(lower_case(key));
     if (found == values_.end()) lines_.refuse(fmt::format("the line has no {}", key), fmt::format("add {}", example));
@@ -65,6 +66,21 @@ class Header {
   const TextLines& lines_;
   std::map<std::string, std::string, std::less<>> values_;
 };
+
+/// Refuses a packing that is not periodic in all three directions, which the key pbc states.
+void expect_periodic(const TextLines& lines, const Header& header) {
+  if (!header.has("pbc")) return;
+  const auto& text = header.at("pbc", "");
+  const auto words = words_of(text);
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    const auto word = lower_case(words[k]);
+    if (word == "t" || word == "true" || word == "1") continue;
+    if (words.size() == 3 && (word == "f" || word == "false" || word == "0"))
+      lines.refuse(fmt::format("pbc=\"{}\": the packing is not periodic along lattice vector {}", text, k + 1),
+                   "use a packing that is periodic in all three directions; if it is, write pbc=\"T T T\"");
+    lines.refuse(fmt::format("pbc=\"{}\" does not state three directions", text), "write pbc=\"T T T\"");
+  }
+}
 
 /// First column of each property, and the number of columns.
 struct Columns {
@@ -139,6 +155,7 @@ ForeignPacking read_xyz_packing(std::string_view text, int frame) {
   const auto n = go_to_frame(lines, text, frame);
   lines.next_line();
   const Header header(lines);
+  expect_periodic(lines, header);
   ForeignPacking packing;
   const auto& lattice_text = header.at("Lattice", "Lattice=\"ax ay az bx by bz cx cy cz\"");
   const auto lattice = words_of(lattice_text);
@@ -146,7 +163,9 @@ ForeignPacking read_xyz_packing(std::string_view text, int frame) {
     lines.refuse(fmt::format("the Lattice has {} numbers", lattice.size()), "write three vectors of three numbers");
   for (std::size_t k = 0; k < 9; ++k) packing.cell.data()[k] = lines.real(lattice[k]);
   const auto columns = columns_of(lines, header.at("Properties", "Properties=species:S:1:pos:R:3:orientation:R:4"));
-  const auto species = columns.at(lines, "species", 1), pos = columns.at(lines, "pos", 3),
+  // isojam writes the names of the solids to a column of their own, because species are symbols of elements.
+  const auto solid = columns.find(lines, "solid", 1);
+  const auto species = solid ? *solid : columns.at(lines, "species", 1), pos = columns.at(lines, "pos", 3),
              orientation = columns.at(lines, "orientation", 4);
   const auto size = columns.find(lines, "size", 1);
   std::map<std::string, int, std::less<>> types;
@@ -158,12 +177,11 @@ ForeignPacking read_xyz_packing(std::string_view text, int frame) {
     const auto [type, added] = types.try_emplace(std::string(words[species]), static_cast<int>(types.size()));
     if (added) packing.types.push_back({type->first, {}, {}});
     const auto at = [&](std::size_t column) { return lines.real(words[column]); };
-    const Eigen::Quaterniond q(at(orientation + 3), at(orientation), at(orientation + 1), at(orientation + 2));
-    if (!(q.norm() > 0.5))
-      lines.refuse(fmt::format("particle {} has no orientation", i), "write a unit quaternion x y z w");
+    const auto q = unit_quaternion({at(orientation + 3), at(orientation), at(orientation + 1), at(orientation + 2)}, i,
+                                   "x y z w", lines.number());
     const double scale = size ? at(*size) : 1;
     if (!(scale > 0)) lines.refuse(fmt::format("particle {} has the size {}", i, scale), "write a size above 0");
-    packing.bodies.push_back({type->second, scale, {at(pos), at(pos + 1), at(pos + 2)}, q.normalized()});
+    packing.bodies.push_back({type->second, scale, {at(pos), at(pos + 1), at(pos + 2)}, q});
   }
   return packing;
 }

@@ -35,7 +35,11 @@ std::string remedy_of_decompression(const Json& record) {
     // The first state is already so close to jamming that there is no second one.
     case StopReason::residual_reached:
     case StopReason::precision_floor:
-    case StopReason::energy_change: return "decrease final_distance, or increase target_energy";
+    case StopReason::energy_change:
+      // target_energy has no effect without a compression.
+      return path.front().at("stage") == to_string(JamStage::compression)
+                 ? "decrease final_distance, or increase target_energy"
+                 : "decrease final_distance, or use a denser initial packing";
     default: return "";
   }
 }

@@ -12,6 +12,7 @@ namespace isojam {
 namespace {
 
 constexpr std::string_view no_result = "the replicate failed";
+constexpr std::string_view not_relaxed = "the packing was measured as given, and nothing was relaxed";
 constexpr std::string_view at_zero_pressure = "the packing is at zero pressure; phi_0 takes the place of phi_j";
 constexpr std::string_view no_freedom = "two states leave no degree of freedom";
 
@@ -55,8 +56,8 @@ RecordedPoint fitted_point(const JamResult& jam) {
           point.states};
 }
 
-RecordedPoint no_point(const JamStep& state) {
-  const Reasoned<> none{std::nullopt, std::string(at_zero_pressure)};
+RecordedPoint no_point(const JamStep& state, std::string_view reason) {
+  const Reasoned<> none{std::nullopt, std::string(reason)};
   return {none, none, none, none, none, state.summary.residual, {}};
 }
 
@@ -66,7 +67,9 @@ void set_results(Record& record, const Outcome& outcome) {
   record.nearest.value = static_cast<int>(nearest);
   if (jam.status == JamStatus::zero_pressure) {
     record.phi_0 = jam.states[nearest].density();
-    record.phi_j.value = no_point(jam.path[static_cast<std::size_t>(jam.state_steps[nearest])]);
+    record.phi_j.value = no_point(jam.path[static_cast<std::size_t>(jam.state_steps[nearest])], at_zero_pressure);
+  } else if (jam.status == JamStatus::as_given) {
+    record.phi_j.value = no_point(jam.path.front(), not_relaxed);
   } else {
     record.phi_j.value = fitted_point(jam);
   }

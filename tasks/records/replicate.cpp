@@ -15,6 +15,7 @@ namespace {
 Checkpoint begin(const ReplicateSpec& spec) {
   if (spec.start) {
     auto packing = initial_packing(*spec.start, spec.replicate);
+    if (spec.start->stage == JamStage::as_given) return {begin_as_given(std::move(packing)), {}};
     const bool jammed = spec.start->stage == JamStage::decompression;
     return {
         jammed ? begin_decompression(std::move(packing), spec.options) : begin_jam(std::move(packing), spec.options),
@@ -31,7 +32,8 @@ JamResult run_jam(const ReplicateSpec& spec, JamProgress from, std::stop_token s
   JamResult result = jam(std::move(from), spec.options, stop, on_progress);
   const bool at_minima = std::any_of(spec.measures.begin(), spec.measures.end(),
                                      [](Measure what) { return definition_of(what).needs_minima; });
-  if (result.status != JamStatus::interrupted && at_minima) settle(result, spec.options, stop);
+  if (result.status != JamStatus::interrupted && result.status != JamStatus::as_given && at_minima)
+    settle(result, spec.options, stop);
   return result;
 }
 
@@ -40,6 +42,7 @@ JamResult run_jam(const ReplicateSpec& spec, JamProgress from, std::stop_token s
 MeasureOptions measure_options(const ReplicateSpec& spec) {
   auto options = spec.measuring;
   if (ends_at_zero_pressure(spec.options)) options.cohesion = spec.options.cohesion;
+  if (spec.start) options.gap = spec.start->gap.value_or(0);
   return options;
 }
 
@@ -50,7 +53,7 @@ Stages engine_stages() {
 }
 
 std::optional<Failure> failure_of(const JamResult& jam) {
-  if (jam.status == JamStatus::zero_pressure) return std::nullopt;
+  if (jam.status == JamStatus::zero_pressure || jam.status == JamStatus::as_given) return std::nullopt;
   if (jam.status == JamStatus::jammed || jam.status == JamStatus::goal_not_reached) {
     if (jam.phi_j && nearest_state(jam)) return std::nullopt;
     return Failure{"jam", "too few states of positive energy to find the jamming point"};

@@ -28,9 +28,11 @@ JamResult restored_jam(const Record& record, std::vector<Packing> states, const 
   }
   const auto& flags = *record.flags.value;
   const bool early = std::find(flags.begin(), flags.end(), Flag::goal_not_reached) != flags.end();
-  result.status = ends_at_zero_pressure(spec.options) ? JamStatus::zero_pressure
-                  : early                             ? JamStatus::goal_not_reached
-                                                      : JamStatus::jammed;
+  const bool as_given = spec.start && spec.start->stage == JamStage::as_given;
+  result.status = as_given                              ? JamStatus::as_given
+                  : ends_at_zero_pressure(spec.options) ? JamStatus::zero_pressure
+                  : early                               ? JamStatus::goal_not_reached
+                                                        : JamStatus::jammed;
   result.phi_j = fit_jamming_point(energy_points(result), spec.options.decompression.fit_window);
   for (const auto& cycle : record.cycles.value_or(std::vector<RecordedCycle>{}))
     result.cycles.push_back({cycle.energy_per_particle, cycle.phi_j.value, std::nullopt});

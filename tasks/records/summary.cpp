@@ -145,6 +145,7 @@ RecordSummary summarise_record(const Record& record, const Json& json, const std
       std::find(summary.measures.begin(), summary.measures.end(), Measure::shear) != summary.measures.end();
   if (is_sheared && spec.has("shear")) summary.settings["shear"] = spec.at("shear").value();
   summary.failed = record.status == RecordStatus::failed;
+  summary.reached_limit = summary.failed && record.failure->why.starts_with(to_string(JamStatus::density_limit));
   if (!summary.failed) {
     set_values(root, record, summary);
     set_states(root.at("states"), record, summary);

@@ -52,6 +52,7 @@ struct RecordSummary {
   std::string result_digest;
   double cpu_seconds = 0;
   bool failed = false, flagged = false;
+  bool reached_limit = false;  ///< failed, because compression reached max_density
   std::vector<Flag> flags;
   Values values = no_values();           ///< quantities of the replicate, and quantities of its nearest state
   std::optional<AngleHistogram> angles;  ///< of the nearest state; nullopt if the record lacks it

@@ -116,7 +116,7 @@ Additions additions(const fs::path& directory, const Requests& requests, const s
       if (const auto why = without_states(directory, held)) {
         result.impossible.push_back({name, *why});
       } else {
-        if (!has_path(directory, held)) result.nearest_only.push_back(name);
+        if (!has_path(directory, held) && held.document.states.size() > 1) result.nearest_only.push_back(name);
         result.measured.push_back(*std::move(spec));
       }
     } else if (failed_before_measures(held)) {

@@ -78,6 +78,7 @@ std::optional<double> Aggregation::Kept::at(Cell cell) const {
 Aggregation::Kept Aggregation::kept(const RecordSummary& record) {
   Kept kept{hash_of(record.result_digest),
             record.failed,
+            record.reached_limit,
             record.flagged,
             has_any(record, exclude_),
             record.residual,
@@ -193,6 +194,7 @@ Row Aggregation::row(const PointKey& key, const Point& point, const std::optiona
   const Cells* seen = nullptr;
   for (const auto& [name, replicate] : point.replicates) {
     row.failed += replicate.failed;
+    row.reached_limit += replicate.reached_limit;
     row.flagged += replicate.flagged;
     row.excluded += replicate.excluded;
     if (replicate.residual) row.residual = std::max(row.residual.value_or(0), *replicate.residual);

@@ -59,8 +59,9 @@ struct Row {
   Json parameters;     ///< values of the swept parameters other than solid and particles
   int replicates = 0;  ///< number of recorded replicates, including failed ones
   int failed = 0;
-  int flagged = 0;   ///< number of replicates that did not fail but have a flag
-  int excluded = 0;  ///< number of replicates that are excluded because of a flag
+  int reached_limit = 0;  ///< number of replicates that failed because compression reached max_density
+  int flagged = 0;        ///< number of replicates that did not fail but have a flag
+  int excluded = 0;       ///< number of replicates that are excluded because of a flag
   /// estimates over the replicates that neither failed nor are excluded
   Estimates estimates = no_estimates();
   Estimates all = no_estimates();  ///< estimates over the replicates that did not fail, including the excluded ones
@@ -117,7 +118,7 @@ class Aggregation {
   /// The part of a record that the table needs.
   struct Kept {
     std::uint64_t result = 0;  ///< hash of the result digest
-    bool failed = false, flagged = false, excluded = false;
+    bool failed = false, reached_limit = false, flagged = false, excluded = false;
     std::optional<double> residual;
     const Cells* cells = nullptr;  ///< the cells that have a value; most replicates of a study share them
     std::vector<double> values;    ///< a value for each cell

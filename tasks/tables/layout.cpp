@@ -283,11 +283,22 @@ std::string line_about(const LaidOut& laid, const Table& table) {
   return fmt::format("{}: {}", title, laid.meaning);
 }
 
+/// Failures at the limit of the density select: these packings are probably the densest.
+std::string limit_text(const Table& table) {
+  int count = 0;
+  for (const auto& row : table.rows) count += row.reached_limit;
+  if (count == 0) return "";
+  return fmt::format(
+      "{} failed because compression reached max_density, so the means probably leave out the densest "
+      "packings: increase max_density",
+      count == 1 ? "1 replicate" : fmt::format("{} replicates", count));
+}
+
 }  // namespace
 
 std::string to_text(const Table& table, View view, const TextOptions& options) {
   std::string text;
-  for (const auto& line : {exclusion_text(table), nearest_only_text(table)}) {
+  for (const auto& line : {exclusion_text(table), nearest_only_text(table), limit_text(table)}) {
     if (!line.empty()) text += wrapped(line, options.columns) + '\n';
   }
   Cells others;

@@ -45,7 +45,8 @@ class Xyz(check.RoundTrip):
         for values, particles, state, _ in self.frames():
             lattice = numpy.array(values["Lattice"].split(), dtype=float).reshape(3, 3)
             numpy.testing.assert_array_equal(lattice, state.side * numpy.eye(3))
-            self.assertEqual((values["pbc"], set(particles["species"])), ("T T T", {state.solid}))
+            self.assertEqual((values["pbc"], set(particles["species"]), set(particles["solid"])),
+                             ("T T T", {"X"}, {state.solid}))
             self.assertEqual((float(values["density"]), float(values["delta_phi"])), (state.density, state.delta_phi))
 
     def test_particles(self):
@@ -59,9 +60,23 @@ class Xyz(check.RoundTrip):
             self.assert_near(particles["orientation"], numpy.roll(state.quaternions, -1, axis=1), 4 * results.DOUBLE,
                              "quaternions")
             z = record["contacts"]["Z"]
-            self.assert_near(particles["Z"].mean(), z, 8 * results.DOUBLE * z, "Z")
+            self.assert_near(particles["n_neighb"].mean(), z, 8 * results.DOUBLE * z, "Z")
             if "labels" in record["clusters"]:
                 self.assertEqual(list(particles["cluster"]), list(results.clusters_of(record["clusters"]["labels"])))
+
+    def test_ase_reads_the_frames(self):
+        try:
+            from ase.io import read
+        except ImportError:
+            self.skipTest("python3-ase is not installed")
+        for stem, states, measured, _ in self.cases():
+            frames = read(stem.with_name(stem.name + ".xyz"), index=":")
+            self.assertEqual(len(frames), len(states))
+            for atoms, state, record in zip(frames, states, measured):
+                print(f"ASE: {len(atoms)} particles, symbols {set(atoms.symbols)}, columns {sorted(atoms.arrays)}")
+                self.assertEqual((len(atoms), set(atoms.numbers), all(atoms.pbc)), (state.n, {0}, True))
+                self.assertEqual(set(atoms.arrays["solid"]), {state.solid})
+                self.assert_near(atoms.arrays["n_neighb"].mean(), record["contacts"]["Z"], 1e-12, "Z")
 
     def test_solid(self):
         for stem, states, _, _ in self.cases():

@@ -35,7 +35,7 @@ class Exported(support.Case):
             shifts = (packing.positions - particles["pos"]) @ numpy.linalg.inv(cell)
             self.near(shifts, numpy.round(shifts), 64 * results.DOUBLE, "whole translations")
             self.near(packing.orientations, numpy.roll(particles["orientation"], 1, axis=1), 4 * results.DOUBLE, "w, x, y, z")
-            self.assertEqual(set(packing.solid_names), set(particles["species"]))
+            self.assertEqual(set(packing.solid_names), set(particles["solid"]))
 
     def test_density_and_low_parts(self):
         for directory in support.ALL:

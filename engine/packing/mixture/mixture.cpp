@@ -32,7 +32,10 @@ Mixture::Mixture(std::vector<MixtureKind> kinds, std::string name) : kinds_(std:
   if (name_.empty()) name_ = is_one_solid() ? std::string(to_string(solid())) : text_of(kinds_);
 }
 
-bool Mixture::is_one_solid() const { return kinds_.size() == 1 && kinds_.front().sizes.law == SizeLaw::fixed; }
+bool Mixture::is_one_solid() const {
+  return kinds_.size() == 1 && kinds_.front().sizes.law == SizeLaw::fixed &&
+         (name_.empty() || name_ == to_string(solid()));
+}
 
 std::vector<int> Mixture::counts(int n) const {
   std::vector<int> counts;
@@ -57,7 +60,7 @@ std::vector<Particle> Mixture::particles(int n) const {
   double volume = 0;
   for (std::size_t k = 0; k < kinds_.size(); ++k) {
     for (int m = 0; m < numbers[k]; ++m) {
-      const double size = kinds_[k].sizes.quantile((m + 0.5) / numbers[k]);
+      const double size = kinds_[k].sizes.of_particle(m, numbers[k]);
       particles.push_back({&*kinds_[k].solid, size, static_cast<int>(k)});
       volume += size * size * size;
     }

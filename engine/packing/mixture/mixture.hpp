@@ -31,16 +31,17 @@ class Mixture {
   /// Several kinds; their fractions must sum to 1. If the name is empty, it is composed from the kinds.
   Mixture(std::vector<MixtureKind> kinds, std::string name);
 
-  /// True if there is one kind with a fixed size. All particles are then identical.
+  /// True if there is one kind with a fixed size, and the mixture has no name of its own. All particles are then
+  /// identical.
   bool is_one_solid() const;
   /// The solid of all particles; requires is_one_solid().
   const Solid& solid() const { return kinds_.front().solid; }
   const std::vector<MixtureKind>& kinds() const { return kinds_; }  ///< kinds in the order in which they were given
   const std::string& name() const { return name_; }                 ///< name in files and messages
 
-  /// Makes a list of n particles, sorted by kind. counts() gives the number m of particles of each kind. The sizes of
-  /// the m particles of one kind are the quantiles (k + ½)/m of its distribution of sizes, k = 0 … m − 1. Then all
-  /// sizes are scaled so that the mean volume is 1. If all sizes are equal, every scaled size is exactly 1.
+  /// Makes a list of n particles, sorted by kind. counts() gives the number of particles of each kind, and
+  /// Sizes::of_particle() their sizes. Then all sizes are scaled so that the mean volume is 1. If all sizes are equal,
+  /// every scaled size is exactly 1.
   std::vector<Particle> particles(int n) const;
   /// Number of particles of each kind in a packing of n particles: the fraction times n, rounded by the method of
   /// largest remainders.

@@ -11,7 +11,7 @@ void append(std::vector<Json>& row, const Vector& v) {
 Json number_or_null(const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); }
 
 std::vector<Json> row_of(const std::string& replicate, const StoredState& state, const NetworkContact& contact) {
-  const auto& [pair, alignment, contact_class, force] = contact;
+  const auto& [pair, alignment, contact_class, force, gap] = contact;
   const auto solid = [&](int particle) { return state.packing.solids.unit(static_cast<std::size_t>(particle)).name(); };
   std::vector<Json> row{replicate, state.index, number_or_null(state.delta_phi), pair.a, pair.b};
   append(row, pair.shift);
@@ -37,7 +37,8 @@ std::vector<NetworkContact> contact_network(const Packing& packing, const Classi
   std::vector<NetworkContact> network;
   for (std::size_t k = 0; k < forces.size(); ++k) {
     network.push_back({classified.contacts[k].pair, classified.alignments[k],
-                       decided ? std::optional(classified.analysis.classes[k]) : std::nullopt, forces[k]});
+                       decided ? std::optional(classified.analysis.classes[k]) : std::nullopt, forces[k],
+                       classified.gaps[k]});
   }
   return network;
 }
@@ -48,7 +49,7 @@ const Columns& contact_columns() {
                                "force_z",    "attack_x",   "attack_y",   "attack_z",   "normal_x",   "normal_y",
                                "normal_z",   "torque_a_x", "torque_a_y", "torque_a_z", "torque_b_x", "torque_b_y",
                                "torque_b_z", "class",      "kind",       "theta_ef",   "theta_ff",   "depth",
-                               "solid_a",    "solid_b",    "x"};
+                               "solid_a",    "solid_b",    "x",          "gap"};
   return columns;
 }
 
@@ -59,10 +60,12 @@ const Columns& contact_texts() {
 
 std::string contact_lines(RowFormat format, const std::string& replicate, const StoredState& state) {
   std::string text;
-  const auto network = contact_network(state.packing);
+  PackingEnergy energy;
+  const auto network = contact_network(state.packing, classified_contacts(state.packing, energy, state.gap));
   for (std::size_t k = 0; k < network.size(); ++k) {
     auto row = row_of(replicate, state, network[k]);
     row.push_back(number_or_null(k < state.exponents.size() ? state.exponents[k] : std::nullopt));
+    row.emplace_back(network[k].gap);
     text += row_line(format, contact_columns(), row);
   }
   return text;

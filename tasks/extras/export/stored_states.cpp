@@ -58,6 +58,7 @@ std::vector<StoredState> stored_states(const fs::path& directory, const Recorded
   const auto nearest = static_cast<std::size_t>(*held.document.nearest.value);
   one.push_back(
       {nearest, held.document.states[nearest].delta_phi.value, read_packing(packing), exponents_of(held, nearest)});
+  one.front().gap = held.document.spec.value(Json::json_pointer("/start/gap"), 0.0);
   return one;
 }
 

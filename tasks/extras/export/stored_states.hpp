@@ -16,6 +16,7 @@ struct StoredState {
   Packing packing;
   /// exponents of its contacts (analysis/exponents.hpp); empty if the record does not have them
   std::vector<std::optional<double>> exponents;
+  double gap = 0;  ///< pairs with a smaller gap count as contacts; only in packings as given
 };
 
 /// Reads the nearest state of a replicate. If `path` is true, reads all states of its path, in order. The replicate

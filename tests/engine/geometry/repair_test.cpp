@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <numbers>
 
 #include "engine/geometry/hull.hpp"
 #include "engine/geometry/solids/named_solids.hpp"
@@ -130,7 +131,7 @@ TEST(Repair, ReducesStones) {
   EXPECT_GE(named_point(stone, {.corners = 24}), 0);
   double before = 0;
   for (const int corners : {66, 48, 24, 12, 4}) {
-    const RepairedSolid repair = repaired(stone, {.hull = true, .corners = corners});
+    const RepairedSolid repair = repaired(stone, {.hull = true, .corners = corners, .max_volume_change = 1});
     EXPECT_EQ(repair.vertices.size(), static_cast<std::size_t>(corners));
     EXPECT_EQ(repair.report.dropped + repair.report.removed_corners + corners, 1000);
     EXPECT_LT(repair.report.volume_change, before);
@@ -138,6 +139,33 @@ TEST(Repair, ReducesStones) {
     std::printf("%d corners: the volume changes by %.1f %%\n", corners, 100 * before);
     for (const Vector3d& v : repair.vertices) EXPECT_NE(std::find(stone.begin(), stone.end(), v), stone.end());
     EXPECT_EQ(ConvexSolid("stone", repair.vertices).vertices().size(), repair.vertices.size());
+  }
+}
+
+/// Caps of a sphere, with a rim of 900 points.
+Points lens() {
+  Points points{{0, 0, .3}, {0, 0, -.3}, {.5, 0, .25}, {-.5, 0, .25}, {0, .5, -.25}, {0, -.5, -.25}};
+  for (int k = 0; k < 900; ++k)
+    points.emplace_back(std::cos(k * std::numbers::pi / 450), std::sin(k * std::numbers::pi / 450), 0);
+  return points;
+}
+
+TEST(Repair, MovesNoCornerByMoreThanFiveLengths) {
+  for (const double merge : {1e-4, 0.001, 0.003, 0.01}) {
+    const RepairOptions options{.merge = merge, .hull = true};
+    try {
+      const RepairedSolid repair = repaired(lens(), options);
+      std::printf("merge %g: %zu vertices, largest move %.3g lengths, volume %+.3f %%\n", merge, repair.vertices.size(),
+                  repair.report.largest_move / merge, 100 * repair.report.volume_change);
+      EXPECT_LE(repair.report.largest_move, 5 * merge);
+      EXPECT_LE(std::abs(repair.report.volume_change), 0.01);
+    } catch (const NoSolid& error) {
+      const auto other = tried_repair(lens(), options, error.cause());
+      ASSERT_TRUE(other) << error.what();
+      std::printf("merge %g: %s; instead merge %g, corners %d, max_volume_change %g\n", merge, error.what(),
+                  other->merge, other->corners, other->max_volume_change);
+      EXPECT_LE(std::abs(repaired(lens(), *other).report.volume_change), other->max_volume_change);
+    }
   }
 }
 

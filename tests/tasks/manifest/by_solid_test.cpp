@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "tasks/manifest/plan.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
 
@@ -61,6 +63,27 @@ TEST(BySolid, CubesHaveALimitAboveThatOfCrystals) {
   auto swept = manifest_of(both, Json::object());
   swept["sweep"]["max_density"] = {0.9, 0.93};
   EXPECT_EQ(limit_of(parsed(swept), 1), 0.93);
+}
+
+TEST(BySolid, DefaultsFollowFromTheShape) {
+  auto manifest = manifest_of({"cube", "box", "corners", "tetrahedron", "simplex", "brick"}, Json::object());
+  const Json corners{{0, 0, 0}, {4, 3, 0}, {-3, 4, 0}, {1, 7, 0}, {0, 0, 5}, {4, 3, 5}, {-3, 4, 5}, {1, 7, 5}};
+  manifest["solids"] = {{"box", {{"box", {2, 2, 2}}}},
+                        {"corners", {{"vertices", corners}}},
+                        {"simplex", {{"vertices", {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}}}},
+                        {"brick", {{"box", {1, 1, 2}}}}};
+  const auto read = parsed(manifest);
+  const Plan plan(read);
+  for (std::size_t point = 0; point < plan.points(); ++point) {
+    const auto spec = plan.at(point, 0);
+    const auto name = std::string(to_string(spec.solid));
+    const auto& compression = spec.options.compression;
+    std::printf("%s: max_density %g, %d evaluations\n", name.c_str(), compression.max_density, compression.evaluations);
+    const bool cube = name == "cube" || name == "box" || name == "corners";
+    EXPECT_EQ(compression.max_density, cube ? 1.07 : 0.93) << name;
+    EXPECT_EQ(compression.evaluations, name == "tetrahedron" || name == "simplex" ? 2000 : 500) << name;
+  }
+  EXPECT_EQ(to_json(parsed(to_json(read))), to_json(read));
 }
 
 TEST(BySolid, TheLimitOfCubesDependsOnNothingElseInTheSweep) {

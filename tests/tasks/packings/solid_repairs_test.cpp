@@ -128,7 +128,11 @@ TEST(SolidRepairs, AreMadeOnRequestOnly) {
   const auto welded = parse({{"vertices", more}, {"merge", 1e-8}});
   EXPECT_EQ(features(welded), (std::array<std::size_t, 3>{6, 12, 8}));
   EXPECT_EQ(welded.definitions.at("mine").report.welded, 1);
-  const auto fewer = parse({{"vertices", points}, {"corners", 6}});
+  expect_part(refused({{"vertices", points}, {"corners", 6}}), "set \"max_volume_change\" to 0.34");
+  const auto fewer = parse({{"vertices", points}, {"corners", 6}, {"max_volume_change", .34}});
+  const auto copy = to_json(fewer).at("solids").at("mine");
+  std::printf("copy of the definition: volume_change %g\n", copy.at("volume_change").get<double>());
+  EXPECT_EQ(copy.at("volume_change"), fewer.definitions.at("mine").report.volume_change);
   EXPECT_EQ(features(fewer)[2], 6U);
   EXPECT_EQ(fewer.definitions.at("mine").report.removed_corners, 2);
   EXPECT_LT(fewer.definitions.at("mine").report.volume_change, -.1);
