@@ -84,7 +84,7 @@ def verdict(data):
     """Sentences that name each solid, with the limit of m and the sum of its errors."""
     made = []
     for key, sentence in SENTENCES.items():
-        names = [f"{PLURALS[s]} ({number(m['mean'], 2)} ± {number(error(m), 2)})" for s in SOLIDS
+        names = [f"{PLURALS[s]} ({number(m['mean'], 3)} ± {number(error(m), 3)})" for s in SOLIDS
                  if call(data, s) == key and (m := limit(data, s, "m_x"))]
         if names:
             text = sentence.format(" and ".join(filter(None, (", ".join(names[:-1]), names[-1]))))

@@ -140,6 +140,9 @@ CLAIMS = {
         (c := data.nearest(s, 100, "C_s"))["mean"] + c["half_width"] < 12 - 4 / 100 for s in SOLIDS[2:]),
     "packings of octahedra, icosahedra and dodecahedra, so that m decides.": lambda data: (
         one := verdict.single_stress(data))[0] > 0.95 * one[1],
+    "In dodecahedra, m exceeds its errors at every N, but only just in the limit.": lambda data: all(
+        m["mean"] > verdict.error(m) for n in verdict.sizes(data, SOLIDS[3]) if (m := verdict.mean(data, SOLIDS[3], n, "m_x"))
+    ) and 1 < (m := verdict.limit(data, SOLIDS[3], "m_x"))["mean"] / verdict.error(m) < 1.2,
     "few missing constraints belong to underconstrained particles.": lambda data: all(
         sum(p["m_supported"] for p in verdict.every(data, s)) > 0.7 * sum(p["m_x"] for p in verdict.every(data, s))
         for s in WITHOUT_TETRAHEDRA),

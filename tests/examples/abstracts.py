@@ -128,7 +128,7 @@ def verdict_numbers(rows, text):
             width = math.sqrt(numpy.linalg.inv(design.T @ design)[0, 0])
         else:
             central, low, high, width = (x[numpy.argmax(n)] for x in (*means, width))
-        made += [(f"m, {solid}", central, 0.0051), ("its error", width + abs(high - low) / 2, 0.0051)]
+        made += [(f"m, {solid}", central, 0.00051), ("its error", width + abs(high - low) / 2, 0.00051)]
     return made + ([] if "N → ∞" in text else [("N", int(max(n)), 0)])
 
 
