@@ -173,5 +173,18 @@ TEST(ReproducibilityTest, TheCachesOfTheMachineChangeNothing) {
   EXPECT_EQ(Eigen::l3CacheSize(), 2048 * kibibyte);
 }
 
+TEST(ReproducibilityTest, PairsThatApproachFromBeyondTheListAreFound) {
+  const ConvexSolid& octahedron = platonic(SolidKind::octahedron);
+  const double r = octahedron.circumradius();
+  Packing packing{octahedron, PeriodicCell(10), std::vector<Pose>(2)};
+  packing.poses[1].position.x() = 2.165 * r;
+  PackingEnergy energy;
+  EXPECT_EQ(energy.evaluate(packing).contacts, 0);
+  // Each centre moves by less than the skin of the list, 0.15 r, and the distance shrinks by more.
+  packing.poses[0].position.x() += 0.1 * r;
+  packing.poses[1].position.x() -= 0.1 * r;
+  EXPECT_EQ(energy.evaluate(packing).contacts, 1);
+}
+
 }  // namespace
 }  // namespace isojam
