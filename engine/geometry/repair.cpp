@@ -328,6 +328,7 @@ std::optional<RepairOptions> tried_repair(std::span<const Vector3d> points, cons
     changed.corners = corners == 0 ? options.corners : corners;
     changed.max_volume_change = 1;
     if (corners > 0 && (options.corners > 0 || cause != NoSolid::Cause::too_large)) continue;
+    if (points.size() > many && corners > ConvexSolid::max_edges / 3 + 2) continue;
     const auto volume = change(changed);
     if (!volume) continue;
     changed.max_volume_change = options.max_volume_change;

@@ -66,6 +66,10 @@ class Values {
     return number(type, raw);
   }
 
+  /// Ends an element. Some programs write more numbers to its line than the header states.
+  void end_line() {
+    if (!bytes_) lines_.skip_line();
+  }
   std::size_t line() const { return bytes_ ? 0 : lines_.number(); }
 
  private:
@@ -167,7 +171,10 @@ Mesh read_ply(std::string_view bytes) {
   const auto vertices = std::find_if(elements.begin(), elements.end(), [](auto& e) { return e.name == "vertex"; });
   if (vertices == elements.end()) throw ContentError("the file has no vertices");
   for (const auto& element : elements) {
-    for (std::size_t k = 0; k < element.size; ++k) read_element(values, element, vertices->size, mesh);
+    for (std::size_t k = 0; k < element.size; ++k) {
+      read_element(values, element, vertices->size, mesh);
+      values.end_line();
+    }
   }
   return mesh;
 }
