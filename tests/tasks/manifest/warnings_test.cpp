@@ -84,6 +84,16 @@ TEST(Warnings, MinimisersMustReachTheResidual) {
   EXPECT_EQ(warned({{"sweep", {{"solid", {"cube"}}}}, {"protocol", {{"compression_evaluations", 100}}}}), Lines{});
 }
 
+TEST(Warnings, FreeCellsNeedMoreParticles) {
+  const auto of_free_cell = [](const char* solid, int particles) {
+    return warned({{"sweep", {{"solid", {solid}}, {"particles", {particles}}}}, {"protocol", {{"cell", "free"}}}});
+  };
+  for (const auto& [solid, enough] : {std::pair{"octahedron", 65}, {"tetrahedron", 91}, {"cube", 100}}) {
+    EXPECT_EQ(of_free_cell(solid, enough - 1), Lines{"/protocol/cell"}) << solid;
+    EXPECT_EQ(of_free_cell(solid, enough), Lines{}) << solid;
+  }
+}
+
 TEST(Warnings, KeysWithoutEffect) {
   const Json shear{{"mode", "simple"}};
   EXPECT_EQ(warned({{"shear", shear}}), Lines{"/shear"});
