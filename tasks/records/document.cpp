@@ -2,7 +2,6 @@
 
 #include "tasks/io/version.hpp"
 #include "tasks/measure/rearrangements.hpp"
-#include "tasks/records/state_file.hpp"
 
 namespace isojam {
 namespace {
@@ -99,7 +98,7 @@ void describe(Fields& field, Addition& addition) {
   field.nested(
       "before",
       [&addition](Fields& before) {
-        describe_digest(before, addition.spec_digest, "Digest of the specification, as in the record.");
+        before("spec_digest", addition.spec_digest, "Digest of the specification, as in the record.");
         before("result_digest", addition.result_digest, "Digest of the record before the addition.");
       },
       "Digests before this addition. A packing file or path file that the addition did not change still contains "
@@ -113,9 +112,9 @@ void describe(Fields& field, Provenance& provenance) {
       "Commit of the sources, with `-dirty` at its end if the sources had uncommitted changes. It is `unknown` if the "
       "sources were not in a git repository.");
   field("compiler", provenance.compiler, "Name and version of the compiler.");
-  describe_digest(field, provenance.spec_digest,
-                  "Digest of everything that determines the replicate: `spec` without its measures, and the seed. Two "
-                  "replicates with the same digest have the same states, whatever else their manifests request.");
+  field("spec_digest", provenance.spec_digest,
+        "Digest of everything that determines the replicate: `spec` without its measures, and the seed. Two "
+        "replicates with the same digest have the same states, whatever else their manifests request.");
   field("seed", provenance.seed, "Seed of the manifest.");
   field("start", provenance.start,
         "Path of the file with the initial configuration; absent if the initial configuration was random.");

@@ -140,7 +140,6 @@ Record record_of(const Outcome& outcome) {
 Json with_added(Record record, const Record& before, const std::vector<Measure>& added) {
   const Provenance now = record.provenance;
   record.provenance = before.provenance;
-  record.provenance.spec_digest = now.spec_digest;  // of a record of an earlier version, this was the manifest's
   auto& additions = record.provenance.added;
   if (!additions) additions.emplace();
   additions->push_back(

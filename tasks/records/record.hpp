@@ -25,8 +25,8 @@ bool is_in_result_digest(std::string_view key);
 std::string result_digest(const Json& record);
 
 /// Makes a record to which measures were added. `record` is a record with all measures, and `before` is the record
-/// before the addition. The returned record has the provenance of `before` with the new manifest digest, and the sum of
-/// the times of both. It also states which measures were added, which build added them, and the digests of `before`.
+/// before the addition. The returned record has the provenance of `before` and the sum of the times of both.
+/// It also states which measures were added, which build added them, and the digests of `before`.
 Json with_added(Record record, const Record& before, const std::vector<Measure>& added);
 
 /// Makes the record of a replicate that failed before any measure. It is equal to `before`, except that it has the

@@ -17,9 +17,7 @@ std::string difference(std::string_view schema, const RecordIdentity& identity, 
   const Json expected = written(StateFileHead{std::string(schema), identity});
   for (const auto& item : expected.items()) {
     const auto& key = item.key();
-    // Files of earlier versions have the digest of the manifest in place of that of the specification.
-    const auto text = key == "spec_digest" && text_at(key).empty() ? text_at("manifest_digest") : text_at(key);
-    if (text != item.value().get<std::string>()) return key;
+    if (text_at(key) != item.value().get<std::string>()) return key;
   }
   return "";
 }
@@ -36,23 +34,14 @@ void check_head(const std::string& file, std::string_view schema, std::span<cons
 
 }  // namespace
 
-void describe_digest(Fields& field, std::string& digest, const char* meaning) {
-  const auto read = [&digest](const JsonPlace& place) { digest = place.text(); };
-  field("spec_digest", digest, meaning).optional();
-  field
-      .custom("manifest_digest", {[] { return Json(); }, read, {{"type", "string"}}, "text"},
-              "Digest of the manifest; only in files of earlier versions of isojam, in place of `spec_digest`.")
-      .optional();
-}
-
 void describe(Fields& field, StateFileHead& file) {
   field("schema", file.schema, "Name and version of the file format.");
   field("checksum", file.checksum,
         "64-bit FNV-1a checksum of the text of the file. It is computed with zeros in place of the 16 digits of this "
         "field.");
   field("replicate", file.identity.replicate, "Name of the replicate. It is also the name of the file of its record.");
-  describe_digest(field, file.identity.spec_digest,
-                  "Digest of the specification of the replicate without measures, and of the seed, as in the record.");
+  field("spec_digest", file.identity.spec_digest,
+        "Digest of the specification of the replicate without measures, and of the seed, as in the record.");
   field("result_digest", file.identity.result_digest,
         "Field `result_digest` of the record. If measures were added later, it may be the digest from before an "
         "addition.");

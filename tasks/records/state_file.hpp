@@ -15,9 +15,6 @@ struct RecordIdentity {
   std::string spec_digest, result_digest;
 };
 
-/// The digest that identifies a replicate. Files of earlier versions have that of their manifest in its place.
-void describe_digest(Fields& field, std::string& digest, const char* meaning);
-
 /// The first members of a packing file or a path file.
 struct StateFileHead {
   std::string schema;

@@ -31,11 +31,6 @@ def load(directory: Path, program: Path | None = None, check: bool = True) -> "S
     return Study(directory, program, check)
 
 
-def _digest(document: dict[str, Any]) -> Any:
-    """Digest of the specification. Files of earlier versions have that of the manifest in its place."""
-    return document.get("spec_digest", document.get("manifest_digest"))
-
-
 class Study:
     """Results of `isojam run`. Each part is read when it is first needed.
 
@@ -146,13 +141,13 @@ class Study:
                                  f"failed in {failure['where']}: {failure['why']}; it has no packing")
             # Files of packings and paths do not change when measures are added to the record.
             provenance = record["provenance"]
-            owners = [(_digest(provenance), record["result_digest"])]
-            owners += [(_digest(one["before"]), one["before"]["result_digest"]) for one in provenance.get("added", [])]
+            owners = [(one["spec_digest"], one["result_digest"]) for one in [
+                {**record, **provenance}, *(addition["before"] for addition in provenance.get("added", []))]]
         if folder == "paths" and not file.exists():
             raise InputError(file, "", "the states of the decompression were not saved",
                              remedy='set "keep_path": true in the manifest and run it again')
         document = read_document(file, facts.schemas[kind], self._check)
-        if (_digest(document), document.get("result_digest")) not in owners:
+        if (document.get("spec_digest"), document.get("result_digest")) not in owners:
             raise InputError(file, "/result_digest", f'"{document.get("result_digest")}" does not match the record',
                              f'"{record["result_digest"]}"')
         return file, record, document
