@@ -4,6 +4,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "tasks/commands/command.hpp"
 #include "tasks/commands/shared.hpp"
@@ -67,9 +68,9 @@ ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& 
     const auto spec = plan.at(point, 0);
     const auto cost = estimated_cost(spec, manifest.keep_path);
     const double each = cost.cpu_seconds * survey.points[point].calibration;
-    const int recorded = survey.points[point].recorded;
-    const int at_least = std::max(0, manifest.replicates.min - recorded);
-    const int at_most = std::max(0, manifest.replicates.max - recorded);
+    const auto& [recorded, taken] = std::tie(survey.points[point].recorded, survey.points[point].taken);
+    const int at_least = std::max(0, manifest.replicates.min - recorded - taken);
+    const int at_most = std::max(0, manifest.replicates.max - recorded - taken);
     least += at_least * each, most += at_most * each;
     disk += at_most * cost.disk_bytes;
     disk_with_paths += at_most * estimated_cost(spec, true).disk_bytes;
@@ -259,7 +260,7 @@ ExitCode run(const RunArguments& arguments, Console& console) {
   const Plan plan(manifest);
   warn_about(manifest, arguments.manifest, console);
   if (arguments.dry_run) {
-    check_directory(directory, manifest);
+    check_directory(directory, manifest, requests_in(directory, [&](const auto& message) { console.warn(message); }));
     return dry_run(manifest, plan, directory, arguments);
   }
 

@@ -28,7 +28,7 @@ struct StatusArguments {
 };
 
 struct Totals {
-  int recorded = 0, failed = 0, flagged = 0;
+  int recorded = 0, failed = 0, flagged = 0, taken = 0;
   double cpu_left = 0;
 };
 
@@ -50,7 +50,7 @@ std::vector<std::optional<double>> values_of(const Survey::Point& point) {
 int replicates_left(const Survey::Point& point, const Manifest& manifest) {
   const auto& rule = manifest.replicates;
   if (rule.goal && advance_of(rule, values_of(point)).finished) return 0;
-  return std::max(0, rule.max - point.recorded);
+  return std::max(0, rule.max - point.recorded - point.taken);
 }
 
 Totals totals_of(const Survey& survey, const Plan& plan) {
@@ -60,6 +60,7 @@ Totals totals_of(const Survey& survey, const Plan& plan) {
     totals.recorded += counts.recorded;
     totals.failed += counts.failed;
     totals.flagged += counts.flagged;
+    totals.taken += counts.taken;
     totals.cpu_left += replicates_left(counts, plan.manifest()) * estimated_cost(plan.at(point, 0), false).cpu_seconds *
                        counts.calibration;
   }
@@ -93,10 +94,11 @@ std::string text_of(const Survey& survey, const Plan& plan) {
       static_cast<std::size_t>(std::count_if(survey.under_way.begin(), survey.under_way.end(), is_running));
   const auto interrupted = survey.under_way.size() - running;
   const bool has_goal = plan.manifest().replicates.goal.has_value();
-  return fmt::format("{}: {} of {}{} recorded, {} failed, {} flagged{}, {} running{}\n", plan.manifest().name,
+  return fmt::format("{}: {} of {}{} recorded, {} failed, {} flagged{}, {} running{}{}\n", plan.manifest().name,
                      totals.recorded, has_goal ? "up to " : "", counted(plan.size(), "replicate"), totals.failed,
                      totals.flagged, flags_text(survey), running,
-                     interrupted > 0 ? fmt::format(", {} interrupted", interrupted) : "") +
+                     interrupted > 0 ? fmt::format(", {} interrupted", interrupted) : "",
+                     totals.taken > 0 ? fmt::format(", {} taken by other settings", totals.taken) : "") +
          time_left(totals, running, has_goal);
 }
 

@@ -75,10 +75,10 @@ std::optional<ReplicateSpec> requested(const Requests& requests, std::string_vie
   return std::nullopt;
 }
 
-bool is_asked_for(const Requests& requests, std::string_view name) {
+bool is_requested(const Requests& requests, std::string_view name, const std::string& digest) {
   return std::any_of(requests.begin(), requests.end(), [&](const Plan& plan) {
     const auto place = plan.place_of(name);
-    return place && plan.requests(*place);
+    return place && plan.requests(*place) && spec_digest(plan.at(place->point, place->replicate)) == digest;
   });
 }
 

@@ -30,8 +30,8 @@ Requests requests_in(const std::filesystem::path& directory, const Warn& warn);
 /// sweep point. The number of the replicate may be larger than any manifest requests.
 std::optional<ReplicateSpec> requested(const Requests& requests, std::string_view name);
 
-/// True if a manifest requests a replicate with this name.
-bool is_asked_for(const Requests& requests, std::string_view name);
+/// True if a manifest requests the replicate with this name and this digest of its specification.
+bool is_requested(const Requests& requests, std::string_view name, const std::string& digest);
 
 /// Relation of a record to the specification that requested() gives to its name.
 enum class Standing {

@@ -103,15 +103,17 @@ void throw_without_records(const fs::path& directory) {
   throw FileError(fmt::format("{}: {}", directory.string(), problem), FileError::Reason::missing);
 }
 
-void check_directory(const fs::path& directory, const Manifest& manifest, const Requests& checked) {
+void check_directory(const fs::path& directory, const Manifest& manifest, const Requests& accepted) {
   refuse_links(directory);
   const Plan plan(manifest);
+  const auto json = to_json(manifest);
+  const auto is_same = [&](const Plan& other) { return to_json(other.manifest()) == json; };
+  if (std::any_of(accepted.begin(), accepted.end(), is_same)) return;
   for (const auto& name : names_in(directory / "records")) {
     const auto place = plan.place_of(name);
     if (!place || !plan.requests(*place)) continue;
     const auto spec = plan.at(place->point, place->replicate);
-    const auto known = is_asked_for(checked, name) ? requested(checked, name) : std::nullopt;
-    if (known && spec_digest(*known) == spec_digest(spec)) continue;
+    if (is_requested(accepted, name, spec_digest(spec))) continue;
     std::optional<RecordedReplicate> held;
     try {
       held = read_record_without_states(directory, name);
@@ -131,9 +133,7 @@ Store::Store(fs::path directory, const Manifest& manifest, Warn warn, DirectoryL
   make_own_folder(directory_ / "manifests");
   const auto turn = DirectoryLock::wait_for(directory_ / "manifests");
   remove_damaged_manifest(directory_, warn_);
-  const auto last = stored_manifest(directory_);
-  if (!last || to_json(*last) != to_json(manifest))
-    check_directory(directory_, manifest, last ? Requests{Plan(*last)} : Requests{});
+  check_directory(directory_, manifest, requests_in(directory_, warn_));
   lock_ = lock_for(directory_, manifest, warn_, kind);
   request(directory_, manifest);
   for (const auto* folder : {"records", "packings", "checkpoints"}) make_own_folder(directory_ / folder);
@@ -152,7 +152,6 @@ std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
   const auto path = record_path(spec).string();
   std::error_code error;
   if (fs::symlink_status(path, error).type() == fs::file_type::not_found) return std::nullopt;
-  std::optional<InputError> conflict;
   try {
     auto held = read_record(directory_, replicate_name(spec));
     const auto standing = standing_of(held, spec);
@@ -164,12 +163,15 @@ std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
             " (\"isojam measure\" would add them in less time)");
       return std::nullopt;
     }
-    conflict = conflict_of(directory_, held, spec);
+    warn_(problem_line(conflict_of(directory_, held, spec).details()) + "; this replicate is left out");
+    RecordSummary taken;
+    taken.spec_digest = held.summary.spec_digest;
+    taken.failed = true;
+    return taken;
   } catch (const InputError& damage) {
     warn_(fmt::format("{}; {}", problem_line(damage.details()), recomputed));
     return std::nullopt;
   }
-  throw *conflict;
 }
 
 void Store::keep_measures(ReplicateSpec& spec) const {
@@ -287,8 +289,7 @@ void for_each_record(const fs::path& directory, const Warn& warn, const std::fun
     }
     return one;
   };
-  std::size_t unasked = 0;
-  std::string example;
+  std::vector<std::string> unasked, foreign, superseded;
   const auto pass_on = [&](Read one) {
     // Thrown here instead of in `read`, so that the first error of the list is reported.
     if (one.error) std::rethrow_exception(one.error);
@@ -296,9 +297,10 @@ void for_each_record(const fs::path& directory, const Warn& warn, const std::fun
     if (!one.held) {
       warn(file + ": is ignored, because no manifest has such a replicate; remove the file, or correct its name");
     } else if (one.standing == Standing::foreign) {
-      warn(fmt::format("{}: {}; the record is ignored", file, other_manifest));
+      const bool is_earlier = is_requested(requests, one.name, one.held->summary.spec_digest);
+      (is_earlier ? superseded : foreign).push_back(one.name);
     } else if (one.standing == Standing::requested) {
-      if (!one.is_asked_for && unasked++ == 0) example = one.name;
+      if (!one.is_asked_for) unasked.push_back(one.name);
       use(*std::move(one.held));
     }
   };
@@ -307,9 +309,14 @@ void for_each_record(const fs::path& directory, const Warn& warn, const std::fun
                          tbb::make_filter<void, std::string>(tbb::filter_mode::serial_in_order, next) &
                              tbb::make_filter<std::string, Read>(tbb::filter_mode::parallel, read) &
                              tbb::make_filter<Read, void>(tbb::filter_mode::serial_in_order, pass_on));
-  if (unasked > 0)
-    warn(fmt::format("{}: no manifest requests {} of the records, for example {}; they count too", directory.string(),
-                     unasked, example));
+  const auto report = [&](const std::vector<std::string>& these, const char* problem, const char* effect) {
+    if (these.empty()) return;
+    warn(fmt::format("{}: {} {} of the records, for example {}; they {}", directory.string(), problem, these.size(),
+                     these.front(), effect));
+  };
+  report(unasked, "no manifest requests", "count too");
+  report(foreign, "no manifest requests the settings of", "are ignored");
+  report(superseded, "only an earlier manifest requests the settings of", "are ignored");
 }
 
 }  // namespace isojam

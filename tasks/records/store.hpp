@@ -18,11 +18,12 @@ namespace isojam {
 
 /// Checks whether the replicates of this manifest may be computed in a directory. It only reads files. Throws
 /// InputError if a replicate is recorded there with another specification, unless it failed: such a replicate is
-/// computed again. Damaged records are ignored: a record of the plan will be recomputed, and for others
-/// for_each_record() gives a warning. Throws FileError if a file cannot be read at the moment, or if one of the folders
-/// is a symbolic link, because results would then be written to another directory. `checked` are manifests for which
-/// the function does not read the records again.
-void check_directory(const std::filesystem::path& directory, const Manifest& manifest, const Requests& checked = {});
+/// computed again. Specifications that the manifests `accepted` request are not checked: if the correction of a failed
+/// replicate has taken its name, they still run, without this replicate. Damaged records are ignored: a record of the
+/// plan will be recomputed, and for others for_each_record() gives a warning. Throws FileError if a file cannot be read
+/// at the moment, or if one of the folders is a symbolic link, because results would then be written to another
+/// directory.
+void check_directory(const std::filesystem::path& directory, const Manifest& manifest, const Requests& accepted);
 
 /// A results directory. It contains manifest.json, tables.json, the folder manifests/ (see requests.hpp), and the
 /// folders records/, packings/, paths/ and checkpoints/ with one file for each replicate. All files are written
@@ -48,8 +49,9 @@ class Store {
   /// - The packing of the replicate is damaged or missing.
   /// - The manifest keeps paths, and the path of the replicate is damaged or missing.
   ///
-  /// Throws InputError if a replicate that did not fail has another specification. Throws FileError if a file cannot be
-  /// read at the moment; such a file does not count as damaged.
+  /// If the name belongs to a replicate with another specification that did not fail, calls `warn` and returns a
+  /// summary that has failed, with only the digest of this specification. Throws FileError if a file cannot be read at
+  /// the moment; such a file does not count as damaged.
   std::optional<RecordSummary> recorded(const ReplicateSpec& spec) const;
   /// Adds the measures of a record, valid or not, to the specification from which its replicate is computed again.
   void keep_measures(ReplicateSpec& spec) const;
@@ -98,12 +100,12 @@ class Store {
 /// Function that reads a record: read_record() or read_abridged_record().
 using ReadRecord = RecordedReplicate (*)(const std::filesystem::path& directory, const std::string& name);
 
-/// Passes the records of a results directory to `use`, one at a time, in the order of their names. If the directory has
-/// manifests, some records are skipped with a warning: those that have another specification than requested() gives to
-/// their names, and damaged ones whose sweep point no manifest has. A failed record with another specification is
-/// skipped without a warning. Also warns about records that no manifest requests, because their numbers are too large.
-/// Throws InputError for any other damaged record. Throws FileError if the directory has no records, or if a record
-/// cannot be read at the moment.
+/// Passes the records of a results directory, or what is kept of them, to `use`, one at a time, in the order of their
+/// names. If the directory has manifests, some records are skipped with a warning: those that have another
+/// specification than requested() gives to their names, and damaged ones whose sweep point no manifest has. A failed record with
+/// another specification is skipped without a warning. Also warns about records that no manifest requests because their
+/// numbers are too large. Throws InputError for any other damaged record. Throws FileError if the directory has no
+/// records, or if a record cannot be read at the moment.
 void for_each_record(const std::filesystem::path& directory, const Warn& warn,
                      const std::function<void(RecordedReplicate)>& use, ReadRecord read = read_record);
 

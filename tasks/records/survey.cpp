@@ -80,7 +80,14 @@ void survey_records(const fs::path& directory, const std::vector<Plan>& plans, S
         const auto place = plans[k].place_of(name);
         if (!place || !plans[k].requests(*place)) continue;
         const auto spec = plans[k].at(place->point, place->replicate);
-        if (standing_of(held, spec) != Standing::requested) continue;
+        if (const auto standing = standing_of(held, spec); standing != Standing::requested) {
+          if (standing == Standing::foreign) {
+            auto& point = surveys.of_plans[k].points[place->point];
+            ++point.taken;
+            point.goal_values[place->replicate] = std::nullopt;
+          }
+          continue;
+        }
         is_asked_for = true;
         surveys.of_plans[k].lacking += !lacks(held, spec.measures).empty();
         count(held.summary, plans[k], *place, spec, surveys.of_plans[k], times[k][place->point]);

@@ -28,8 +28,9 @@ struct UnderWay {
 struct Survey {
   struct Point {
     int recorded = 0, failed = 0, flagged = 0, under_way = 0;
+    int taken = 0;  ///< replicates whose name a record with another specification has, which did not fail
     /// Only with a stopping rule: its quantity for each recorded replicate, by number of the replicate. nullopt if the
-    /// replicate has no value or is excluded.
+    /// replicate has no value, is excluded, or its name is taken.
     std::map<int, std::optional<double>> goal_values;
     /// Total measured CPU time divided by the total estimated CPU time. The sums are over the records of this point
     /// that did not fail. If this point has no such record, the sums are over those of all points. 1 if there are none.

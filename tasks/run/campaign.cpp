@@ -26,7 +26,8 @@ void Campaign::learn(std::size_t point) {
   const auto index = *quantity_index(rule_.goal->quantity);
   for (int replicate = state.done; replicate < state.wanted; ++replicate) {
     const auto spec = plan_.at(point, replicate);
-    const auto summary = store_.recorded(spec);
+    const bool is_taken = taken_.contains(replicate_name(spec));
+    const auto summary = is_taken ? RecordSummary{} : store_.recorded(spec);
     if (!summary)
       throw FileError(store_.record_path(spec).string() +
                       ": was removed or damaged during the run; repeat the command");
@@ -69,6 +70,7 @@ std::optional<ReplicateSpec> Campaign::next_in_order() {
 bool Campaign::is_missing(ReplicateSpec& spec) {
   if (const auto summary = store_.recorded(spec)) {
     failed_ += summary->failed;
+    if (summary->failed && summary->spec_digest != spec_digest(spec)) taken_.insert(replicate_name(spec));
     store_.release(spec);
     return false;
   }
@@ -124,7 +126,7 @@ std::vector<std::string> Campaign::without(const std::function<bool(const std::s
     for (int replicate = 0; replicate < points_[point].wanted; ++replicate) {
       if (!takes(point, replicate)) continue;
       auto name = replicate_name(plan_.at(point, replicate));
-      if (!has(name)) names.push_back(std::move(name));
+      if (!has(name) && !taken_.contains(name)) names.push_back(std::move(name));
     }
   }
   return names;

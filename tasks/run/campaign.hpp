@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -42,9 +43,9 @@ class Campaign {
   Size round_size() const;
   /// Estimated memory, in bytes, of the replicate of the plan that needs the most memory.
   double largest_memory() const;
-  /// Names of the replicates in all rounds so far for which `has` returns false.
+  /// Names of the replicates in all rounds so far for which `has` returns false, without those whose name was taken.
   std::vector<std::string> without(const std::function<bool(const std::string&)>& has) const;
-  /// Number of failed replicates among the valid records that next() skipped.
+  /// Number of failed replicates among the valid records that next() skipped, and of replicates whose name was taken.
   int failed() const { return failed_; }
 
  private:
@@ -69,6 +70,7 @@ class Campaign {
   int at_replicate_ = 0;
   std::vector<ReplicateSpec> elsewhere_;  ///< replicates of the round that other processes compute
   int failed_ = 0;
+  std::set<std::string> taken_;  ///< names that records with other specifications have, see Store::recorded()
 };
 
 }  // namespace isojam

@@ -7,7 +7,6 @@
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/sealed.hpp"
 #include "tasks/records/record.hpp"
-#include "tasks/records/results.hpp"
 #include "tasks/records/store.hpp"
 #include "tasks/records/survey.hpp"
 #include "tasks/tables/table_of.hpp"
@@ -91,7 +90,7 @@ TEST_F(Own, AReportDoesNotUseAForeignPacking) {
 TEST_F(Own, ARecordHasTheDigestThatItStates) {
   change(path("records", 0), [](Json& json) { json["phi_j"]["phi_j"] = 0.7; });
   EXPECT_FALSE(store_.recorded(plan_[0]));
-  EXPECT_THROW(read_results(here_.path(), unheard), InputError);
+  EXPECT_THROW(for_each_record(here_.path(), unheard, [](const auto&) {}), InputError);
 }
 
 TEST_F(Own, EveryErrorOfAFileHasARemedy) {
@@ -141,7 +140,7 @@ TEST_F(Own, RecordsOfAnotherManifestAreLeftOut) {
   for (const auto& row : table.rows) counted += row.replicates;
   EXPECT_EQ(counted, static_cast<int>(plan_.size()) - 1);
   ASSERT_EQ(warnings_.said.size(), 1U);
-  EXPECT_NE(warnings_.said[0].find("another manifest"), std::string::npos) << warnings_.said[0];
+  EXPECT_NE(warnings_.said[0].find("no manifest requests the settings of 1 "), std::string::npos) << warnings_.said[0];
 }
 
 TEST_F(Own, DifferentBuildsAreReported) {
