@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 
 #include "tasks/io/file.hpp"
@@ -42,36 +43,6 @@ void check_depth(std::string_view text, const std::string& file) {
     }
   }
 }
-
-/// Reads the first members of an object as long as they are strings, then stops.
-class HeadReader final : public nlohmann::json_sax<Json> {
- public:
-  const std::map<std::string, std::string>& head() const { return head_; }
-
-  bool null() override { return false; }
-  bool boolean(bool) override { return false; }
-  bool number_integer(number_integer_t) override { return false; }
-  bool number_unsigned(number_unsigned_t) override { return false; }
-  bool number_float(number_float_t, const string_t&) override { return false; }
-  bool string(string_t& value) override {
-    head_[key_] = value;
-    return !key_.empty();
-  }
-  bool binary(binary_t&) override { return false; }
-  bool start_object(std::size_t) override { return key_.empty(); }
-  bool end_object() override { return false; }
-  bool start_array(std::size_t) override { return false; }
-  bool end_array() override { return false; }
-  bool key(string_t& name) override {
-    key_ = name;
-    return true;
-  }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
-
- private:
-  std::string key_;
-  std::map<std::string, std::string> head_;
-};
 
 }  // namespace
 
@@ -128,9 +99,18 @@ Json read_sealed(const std::string& file) { return parse_sealed(read_result(file
 std::map<std::string, std::string> read_sealed_head(const std::string& file) {
   const auto text = read_result(file);
   check_seal(text, file);
-  HeadReader reader;
-  Json::sax_parse(text, &reader);
-  return reader.head();
+  std::map<std::string, std::string> head;
+  // sealed() writes each of these members on one line.
+  for (std::string_view rest = text; !rest.empty();) {
+    auto line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    if (line == "{") continue;
+    if (line.ends_with(',')) line.remove_suffix(1);
+    const auto member = parsed(fmt::format("{{{}}}", line), false);
+    if (!member.is_object() || member.empty() || !member.begin()->is_string()) break;
+    head[member.begin().key()] = *member.begin();
+  }
+  return head;
 }
 
 }  // namespace isojam

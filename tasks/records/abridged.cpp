@@ -33,7 +33,7 @@ const std::set<std::string, std::less<>>& keys_of_quantities() {
 /// Passes the lines of a record that are kept to a text.
 class Shortener {
  public:
-  explicit Shortener(States states) : states_(states) {}
+  explicit Shortener(const Abridgement& kept) : states_(kept.states), keys_(kept.keys) {}
 
   void take(std::string_view line) {
     const auto indent = std::min(line.find_first_not_of(' '), line.size());
@@ -68,7 +68,7 @@ class Shortener {
   bool is_needed(std::string_view line, std::size_t indent) {
     constexpr std::size_t state = 6;
     if (indent == state) in_measure_ = from_string<Measure>(key_of(line, indent)).has_value();
-    if (section_ != "states" || indent <= state || !in_measure_ || kept_ != 0) return true;
+    if (keys_ == Keys::all || section_ != "states" || indent <= state || !in_measure_ || kept_ != 0) return true;
     if (unneeded_ != 0) {
       if (indent == unneeded_) unneeded_ = 0;
       return false;
@@ -87,7 +87,7 @@ class Shortener {
   }
 
   bool is_long_list(std::string_view line, std::size_t indent) {
-    if (line.ends_with("\"angle_bins\": {")) kept_ = indent;
+    if (keys_ == Keys::quantities && line.ends_with("\"angle_bins\": {")) kept_ = indent;
     const bool kept = kept_ != 0;
     if (kept && indent == kept_ && line[indent] == '}') kept_ = 0;
     if (kept || indent < 4 || section_ == "spec" || section_ == "provenance") return false;
@@ -95,6 +95,7 @@ class Shortener {
   }
 
   States states_;
+  Keys keys_;
   std::string text_;
   std::string_view section_;  ///< key of the record's member
   std::size_t unneeded_ = 0;  ///< indent of an object inside a state that is left out
@@ -105,8 +106,8 @@ class Shortener {
 
 }  // namespace
 
-std::string abridged(std::string_view text, States states) {
-  Shortener shortener(states);
+std::string abridged(std::string_view text, const Abridgement& kept) {
+  Shortener shortener(kept);
   while (!text.empty()) {
     const auto end = std::min(text.find('\n'), text.size());
     shortener.take(text.substr(0, end));

@@ -8,11 +8,18 @@ namespace isojam {
 
 /// States of the decompression that are kept.
 enum class States : std::uint8_t { nearest, all };
+/// Keys of a state that are kept: those that tables need, or all.
+enum class Keys : std::uint8_t { quantities, all };
 
-/// Shortens the text of a record to what tables need, so that parsing takes a fraction of the time. The text must be
-/// one that isojam wrote, with one line for each member, as its checksum shows. The shorter text is a record too, but
-/// its path is empty, its states have only the keys of quantities, and lists are empty, except histograms of angles.
-/// With States::nearest it has only the state nearest jamming.
-std::string abridged(std::string_view text, States states);
+struct Abridgement {
+  States states = States::all;
+  Keys keys = Keys::quantities;
+};
+
+/// Shortens the text of a record to what tables or rows need, so that parsing takes a fraction of the time. The text
+/// must be one that isojam wrote, with one line for each member, as its checksum shows. The shorter text is a record
+/// too, but it has only these states with these keys, its path is empty, and lists are empty. With Keys::quantities it
+/// keeps the histograms of angles.
+std::string abridged(std::string_view text, const Abridgement& kept);
 
 }  // namespace isojam

@@ -10,7 +10,7 @@
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/place.hpp"
 #include "tasks/io/sealed.hpp"
-#include "tasks/records/abridged.hpp"
+#include "tasks/packings/packing_json.hpp"
 #include "tasks/records/record.hpp"
 #include "tasks/records/state_file.hpp"
 #include "tasks/records/store.hpp"
@@ -89,39 +89,22 @@ RecordedReplicate recorded(Json json, const std::string& file, const std::string
 
 }  // namespace
 
-RecordedReplicate read_record(const fs::path& directory, const std::string& name) {
-  const auto file = file_in(directory, "records", name);
-  return with_remedy([&] {
-    auto json = parse_sealed(expect_present(file, [&] { return read_result(file); }), file);
-    auto replicate = recorded(std::move(json), file, name);
-    if (const auto digest = result_digest(replicate.record); digest != replicate.summary.result_digest)
-      throw InputError(
-          {file, "/result_digest", "the record was changed: its result does not match its digest", digest, ""});
-    return replicate;
-  });
-}
-
-namespace {
-
-RecordedReplicate read_quickly(const fs::path& directory, const std::string& name, States states) {
+RecordedReplicate read_record(const fs::path& directory, const std::string& name,
+                              const std::optional<Abridgement>& kept) {
   const auto file = file_in(directory, "records", name);
   return with_remedy([&] {
     const auto text = expect_present(file, [&] { return read_result(file); });
     check_seal(text, file);
-    return recorded(parsed_document(abridged(text, states), file), file, name);
+    auto replicate = recorded(parsed_document(kept ? abridged(text, *kept) : text, file), file, name);
+    const auto& own = replicate.summary.result_digest;
+    if (const auto digest = kept ? own : result_digest(replicate.record); digest != own)
+      throw InputError(
+          {file, "/result_digest", "the record was changed: its result does not match its digest", digest, ""});
+    constexpr std::string_view nearest = "\n  \"nearest\": ";
+    if (kept && kept->states == States::nearest && !replicate.summary.failed)
+      replicate.nearest = std::stoul(text.substr(text.find(nearest) + nearest.size(), 8));
+    return replicate;
   });
-}
-
-}  // namespace
-
-RecordedReplicate read_abridged_record(const fs::path& directory, const std::string& name) {
-  return read_quickly(directory, name, States::all);
-}
-
-RecordedReplicate read_record_without_states(const fs::path& directory, const std::string& name) {
-  auto replicate = read_quickly(directory, name, States::nearest);
-  replicate.summary.states.clear();
-  return replicate;
 }
 
 std::vector<Measure> lacks(const RecordedReplicate& replicate, const std::vector<Measure>& measures) {
@@ -140,6 +123,14 @@ void check_companions(const fs::path& directory, const RecordedReplicate& replic
 
 Json read_state_file_of(const fs::path& directory, const RecordedReplicate& replicate, const std::string& folder) {
   return with_state_file(directory, replicate, folder, read_state_file);
+}
+
+std::optional<Packing> read_nearest_packing(const fs::path& directory, const RecordedReplicate& replicate) {
+  const auto file = file_in(directory, "packings", replicate.name);
+  std::error_code error;
+  if (!fs::exists(file, error)) return std::nullopt;
+  const auto json = read_state_file_of(directory, replicate, "packings");
+  return read_packing({json, file});
 }
 
 std::optional<Manifest> stored_manifest(const fs::path& directory) {

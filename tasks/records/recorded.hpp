@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/packing/packing.hpp"
 #include "tasks/io/json.hpp"
 #include "tasks/manifest/plan.hpp"
+#include "tasks/records/abridged.hpp"
 #include "tasks/records/summary.hpp"
 
 namespace isojam {
@@ -18,18 +20,15 @@ struct RecordedReplicate {
   Json record;       ///< the file as JSON
   Record document;   ///< the same file
   RecordSummary summary;
+  /// index of the nearest state in the file; only if `record` has no other state
+  std::optional<std::size_t> nearest = std::nullopt;
 };
 
 /// Reads the record with this name. Throws FileError if it cannot be read at the moment. Throws InputError if it is
-/// missing or damaged, if its result digest is wrong, or if it describes another replicate than its name.
-RecordedReplicate read_record(const std::filesystem::path& directory, const std::string& name);
-
-/// Reads the same record in less time, for tables: shortened by abridged(), and without checks of its digest and of the
-/// parts of measures.
-RecordedReplicate read_abridged_record(const std::filesystem::path& directory, const std::string& name);
-/// Reads the same record in still less time, for `isojam status` and for tables of the nearest states. It has only the
-/// nearest state, and its summary has no list of states.
-RecordedReplicate read_record_without_states(const std::filesystem::path& directory, const std::string& name);
+/// missing or damaged, if its result digest is wrong, or if it describes another replicate than its name. Takes less
+/// time if only a part of the record is kept; the result digest is then not checked.
+RecordedReplicate read_record(const std::filesystem::path& directory, const std::string& name,
+                              const std::optional<Abridgement>& kept = std::nullopt);
 
 /// Those of the measures that the record does not have.
 std::vector<Measure> lacks(const RecordedReplicate& replicate, const std::vector<Measure>& measures);
@@ -43,6 +42,10 @@ void check_companions(const std::filesystem::path& directory, const RecordedRepl
 /// exceptions as check_companions().
 Json read_state_file_of(const std::filesystem::path& directory, const RecordedReplicate& replicate,
                         const std::string& folder);
+
+/// Reads the nearest state of a replicate from its packing file; nullopt if there is no such file. Throws InputError if
+/// the file is damaged or belongs to another record. Throws FileError if it cannot be read at the moment.
+std::optional<Packing> read_nearest_packing(const std::filesystem::path& directory, const RecordedReplicate& replicate);
 
 /// Throws FileError if the directory does not exist or is not a directory. The text of the error is the same for every
 /// command.

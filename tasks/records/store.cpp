@@ -116,7 +116,7 @@ void check_directory(const fs::path& directory, const Manifest& manifest, const 
     if (is_requested(accepted, name, spec_digest(spec))) continue;
     std::optional<RecordedReplicate> held;
     try {
-      held = read_record_without_states(directory, name);
+      held = read_record(directory, name, Abridgement{States::nearest});
     } catch (const InputError&) {
       continue;
     }
@@ -252,7 +252,7 @@ void Store::write_added(const ReplicateSpec& spec, const RecordedReplicate& fail
 void Store::write_tables(const Json& tables) const { write_atomically(tables_path(), sealed(tables)); }
 
 void for_each_record(const fs::path& directory, const Warn& warn, const std::function<void(RecordedReplicate)>& use,
-                     ReadRecord read_one) {
+                     const std::optional<Abridgement>& kept) {
   const auto names = names_in(directory / "records");
   if (names.empty()) throw_without_records(directory);
   const auto requests = requests_in(directory, warn);
@@ -279,7 +279,7 @@ void for_each_record(const fs::path& directory, const Warn& warn, const std::fun
         if (one.is_asked_for) break;
       }
       try {
-        one.held = read_one(directory, name);
+        one.held = read_record(directory, name, kept);
       } catch (const InputError&) {
         if (spec || requests.empty()) throw;
       }

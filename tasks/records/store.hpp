@@ -97,16 +97,14 @@ class Store {
 /// Throws the FileError for a path that is not a directory, or for a directory that has no records.
 [[noreturn]] void throw_without_records(const std::filesystem::path& directory);
 
-/// Function that reads a record: read_record() or read_abridged_record().
-using ReadRecord = RecordedReplicate (*)(const std::filesystem::path& directory, const std::string& name);
-
 /// Passes the records of a results directory, or what is kept of them, to `use`, one at a time, in the order of their
 /// names. If the directory has manifests, some records are skipped with a warning: those that have another
-/// specification than requested() gives to their names, and damaged ones whose sweep point no manifest has. A failed record with
-/// another specification is skipped without a warning. Also warns about records that no manifest requests because their
-/// numbers are too large. Throws InputError for any other damaged record. Throws FileError if the directory has no
-/// records, or if a record cannot be read at the moment.
+/// specification than requested() gives to their names, and damaged ones whose sweep point no manifest has. A failed
+/// record with another specification is skipped without a warning. Also warns about records that no manifest requests
+/// because their numbers are too large. Throws InputError for any other damaged record. Throws FileError if the
+/// directory has no records, or if a record cannot be read at the moment.
 void for_each_record(const std::filesystem::path& directory, const Warn& warn,
-                     const std::function<void(RecordedReplicate)>& use, ReadRecord read = read_record);
+                     const std::function<void(RecordedReplicate)>& use,
+                     const std::optional<Abridgement>& kept = std::nullopt);
 
 }  // namespace isojam

@@ -73,7 +73,7 @@ void survey_records(const fs::path& directory, const std::vector<Plan>& plans, S
   const bool with_paths = !plans.empty() && plans.front().manifest().keep_path;
   for (const auto& name : names_in(directory / "records")) {
     try {
-      const auto held = read_record_without_states(directory, name);
+      const auto held = read_record(directory, name, Abridgement{States::nearest});
       check_companions(directory, held, with_paths);
       bool is_asked_for = false;
       for (std::size_t k = 0; k < plans.size(); ++k) {

@@ -91,7 +91,7 @@ Table table_of(const std::vector<std::string>& directories, const Warn& warn, co
   for (const auto& directory : directories)
     for_each_record(
         directory, warn, [&](const RecordedReplicate& held) { aggregation.add(held.summary); },
-        choices.series ? read_abridged_record : read_record_without_states);
+        Abridgement{choices.series ? States::all : States::nearest});
   return told(aggregation.table(common_rule(manifests)), warn);
 }
 
@@ -113,7 +113,7 @@ Table table_of(const std::string& directory, const Manifest& manifest, const War
         aggregation.add(held.summary);
         seen(held);
       },
-      read_abridged_record);
+      Abridgement{});
   return told(aggregation.table(manifest.replicates), warn);
 }
 

@@ -34,7 +34,7 @@ std::string written(const ChartConfig& config, const ChartResult& result, const 
   auto table = text_table(result);
   write_atomically(directory / "data.json", pretty(data));
   write_atomically(directory / "table.txt", table);
-  write_atomically(directory / "chart.html", assembled_page(chart_parts(), data));
+  write_atomically(directory / "chart.html", assembled_page(chart_parts(), page_text(data)));
   return table;
 }
 

@@ -48,8 +48,9 @@ std::vector<std::string> chosen_names(const ExportArguments& arguments) {
   return {recorded_name(arguments.directory, arguments.replicate)};
 }
 
-RecordedReplicate own_record(const ExportArguments& arguments, const Requests& requests, const std::string& name) {
-  auto held = read_record(arguments.directory, name);
+RecordedReplicate own_record(const ExportArguments& arguments, const Requests& requests, const std::string& name,
+                             const std::optional<Abridgement>& kept) {
+  auto held = read_record(arguments.directory, name, kept);
   const auto spec = requested(requests, name);
   if (!requests.empty() && standing_of(held, spec) == Standing::foreign)
     throw InputError({record_file(arguments, name), "/provenance/spec_digest", std::string(other_manifest),

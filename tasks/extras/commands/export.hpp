@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,8 +46,9 @@ struct ExportArguments {
 /// this check, text such as "../x" cannot become part of a path.
 std::vector<std::string> chosen_names(const ExportArguments& arguments);
 
-/// Reads a record with read_record(). If there are requests and the record is foreign to them, throws InputError.
-RecordedReplicate own_record(const ExportArguments& arguments, const Requests& requests, const std::string& name);
+/// Reads a record, or a part of it. If there are requests and the record is foreign to them, throws InputError.
+RecordedReplicate own_record(const ExportArguments& arguments, const Requests& requests, const std::string& name,
+                             const std::optional<Abridgement>& kept = std::nullopt);
 
 /// True if the replicate did not fail. For a failed replicate, prints a warning and returns false if all replicates are
 /// exported. If the user gave the name of a failed replicate, throws UsageError.

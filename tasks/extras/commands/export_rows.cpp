@@ -83,12 +83,14 @@ ExitCode export_rows(const ExportArguments& arguments, Console& console) {
   }
   const auto format = format_of(arguments.output);
   const auto of = arguments.what == Exported::states ? RowOf::state : RowOf::replicate;
-  const RecordRows rows(of, format, combined(requests), own_record(arguments, requests, names.front()));
   const bool of_contacts = arguments.what == Exported::contacts;
+  std::optional<Abridgement> kept;
+  if (!of_contacts) kept = {of == RowOf::state ? States::all : States::nearest, Keys::all};
+  const RecordRows rows(of, format, combined(requests), own_record(arguments, requests, names.front(), kept));
   Output output(arguments.output);
   output.append(of_contacts ? head_line(format, contact_columns()) : rows.head());
   for (const auto& name : names) {
-    const auto held = own_record(arguments, requests, name);
+    const auto held = own_record(arguments, requests, name, kept);
     if (!of_contacts) {
       output.append(rows.lines(held));
     } else if (has_packing(arguments, held, console)) {

@@ -1,26 +1,20 @@
 #include <filesystem>
-#include <iterator>
-#include <map>
-#include <utility>
+#include <tuple>
+#include <vector>
 
 #include "tasks/extras/commands/pages.hpp"
+#include "tasks/extras/page/page.hpp"
 #include "tasks/extras/report/gather.hpp"
 #include "tasks/extras/report/report_page.hpp"
 #include "tasks/io/atomic_file.hpp"
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/standard_streams.hpp"
+#include "tasks/records/store.hpp"
 
 namespace isojam {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The results of all directories, and for each replicate the directory from which it comes.
-// NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
-struct Gathered {
-  Results results;
-  std::vector<fs::path> origins;
-};
 
 /// Adds the manifest of one more directory. Means need one list of excluded flags.
 void add_manifest(Json& all, const Json& more, const std::string& directory) {
@@ -35,17 +29,16 @@ void add_manifest(Json& all, const Json& more, const std::string& directory) {
   if (all.at("keep_path") != more.at("keep_path")) all["keep_path"] = false;
 }
 
-Gathered gathered(const std::vector<std::string>& directories, const Warn& warn) {
-  Gathered all;
+Json manifest_of(const std::vector<std::string>& directories) {
+  Json all;
   for (const auto& directory : directories) {
-    auto more = read_results(directory, warn);
+    const auto manifest = stored_manifest(directory);
+    const auto more = manifest ? to_json(*manifest) : Json();
     if (&directory == &directories.front()) {
-      all.results.manifest = std::move(more.manifest);
+      all = more;
     } else {
-      add_manifest(all.results.manifest, more.manifest, directory);
+      add_manifest(all, more, directory);
     }
-    all.origins.insert(all.origins.end(), more.replicates.size(), directory);
-    std::move(more.replicates.begin(), more.replicates.end(), std::back_inserter(all.results.replicates));
   }
   return all;
 }
@@ -60,24 +53,34 @@ ExitCode report(const ReportArguments& arguments, Console& console) {
   }
   const auto output =
       arguments.output.empty() ? fs::path(arguments.directories.front()) / "report.html" : fs::path(arguments.output);
-  auto [results, origins] = gathered(arguments.directories, [&](const std::string& message) { console.warn(message); });
-  const ViewOptions options;
-  std::map<std::size_t, Json> views;
-  const auto choice = choose_views(results, options);
-  for (const auto& chosen : choice) {
-    const auto packing = read_nearest_packing(origins[chosen.replicate], results.replicates[chosen.replicate]);
-    if (!packing) continue;
-    views[chosen.replicate] = packing_view(*packing, chosen.with_modes ? options.modes : 0);
-    views[chosen.replicate]["solid"] = to_string(results.replicates[chosen.replicate].summary.solid);
+  ReportData data(manifest_of(arguments.directories));
+  std::vector<fs::path> origins;
+  for (const fs::path directory : arguments.directories) {
+    for_each_record(
+        directory, [&](const std::string& message) { console.warn(message); },
+        [&](const RecordedReplicate& held) {
+          // Replicates of two directories may have the same name.
+          data.add(held, several ? (directory / held.name).string() : held.name);
+          origins.push_back(directory);
+        });
   }
-  // Replicates of two directories may have the same name.
-  for (std::size_t k = 0; several && k < origins.size(); ++k)
-    results.replicates[k].name = (origins[k] / results.replicates[k].name).string();
-  Json data = report_data(results, views);
-  data["viewable"] = {{"most_particles", options.most_particles}, {"chosen", choice.size()}};
+  const ViewOptions options;
+  std::vector<std::string> views;
+  const auto choice = choose_views(data.viewable(), options);
+  for (const auto& chosen : choice) {
+    const auto& [name, directory] = std::tie(data.viewable()[chosen.replicate].name, origins[chosen.replicate]);
+    const auto held = read_record(directory, fs::path(name).filename().string(), Abridgement{States::nearest});
+    const auto packing = read_nearest_packing(directory, held);
+    if (!packing) continue;
+    auto view = packing_view(*packing, chosen.with_modes ? options.modes : 0);
+    view["solid"] = to_string(held.summary.solid);
+    view["name"] = name;
+    views.push_back(page_text(view));
+  }
   // The page links to a chart in the same folder. The link does not work if the page is sent to somebody alone.
-  data["chart"] = fs::exists(output.parent_path() / "chart.html");
-  write_output(output, report_page(data));
+  const Json more{{"viewable", {{"most_particles", options.most_particles}, {"chosen", choice.size()}}},
+                  {"chart", fs::exists(output.parent_path() / "chart.html")}};
+  write_output(output, report_page(data.text(views, more)));
   print(output.string() + "\n");
   return ExitCode::done;
 }

@@ -219,7 +219,7 @@ std::string RecordRows::lines(const RecordedReplicate& held) const {
   if (of_ == RowOf::replicate) {
     if (failed) return line({held, nullptr, 0});
     const auto nearest = nearest_of(held);
-    return line({held, &held.record.at("states")[nearest], nearest});
+    return line({held, &held.record.at("states")[nearest], held.nearest.value_or(nearest)});
   }
   std::string text;
   const auto& states = held.record.at("states");

@@ -43,10 +43,11 @@ std::string scripts(const Parts& parts) {
   return text;
 }
 
-/// JSON in which "<" is escaped, so that it cannot end the HTML element that contains it. File names need not be UTF-8.
-std::string embedded(const Json& data) {
+/// JSON in which "<" is escaped, so that it cannot end the HTML element that contains it.
+std::string embedded(std::string_view data) {
   std::string text;
-  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+  text.reserve(data.size());
+  for (const char c : data) {
     if (c == '<') {
       text += "\\u003c";
     } else {
@@ -58,7 +59,9 @@ std::string embedded(const Json& data) {
 
 }  // namespace
 
-std::string assembled_page(std::span<const PagePart> own, const Json& data) {
+std::string page_text(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+std::string assembled_page(std::span<const PagePart> own, std::string_view data) {
   const auto common = common_parts();
   Parts parts(common.begin(), common.end());
   parts.insert(parts.end(), own.begin(), own.end());

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/analysis/alignment/critical_angles.hpp"
-#include "engine/analysis/alignment/empirical_cdf.hpp"
 #include "engine/analysis/alignment/random_alignment.hpp"
 #include "engine/arithmetic/elementary.hpp"
 
@@ -25,6 +24,17 @@ double shortened(double x) {
   if (x == 0) return 0;
   const double unit = nearest::pow(10, std::floor(nearest::log10(std::abs(x))) - 5);
   return std::round(x / unit) * unit;
+}
+
+/// Edges of the bins of a distribution of angles in degrees, from `angle_floor` to 100.
+const std::vector<double>& edges_of_bins() {
+  static const auto edges = [] {
+    std::vector<double> list;
+    for (int k = -6 * bins_per_decade; k <= 2 * bins_per_decade; ++k)
+      list.push_back(nearest::pow(10, static_cast<double>(k) / bins_per_decade));
+    return list;
+  }();
+  return edges;
 }
 
 Json sampled(const std::function<double(double)>& distribution, double largest) {
@@ -71,16 +81,30 @@ Json angle_references(const Mixture& mixture) {
   return json;
 }
 
-Json thinned_cdf(std::span<const double> angles) {
-  std::vector<double> degrees;
-  for (const double angle : angles) degrees.push_back(std::max(angle / degree, angle_floor));
-  const auto cdf = empirical_cdf(degrees);
+void ThinnedCdf::add(double angle) {
+  const double theta = std::max(angle / degree, angle_floor);
+  const auto& edges = edges_of_bins();
+  bins_.resize(edges.size() + 1);
+  auto& bin = bins_[static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), theta) - edges.begin())];
+  ++bin.angles;
+  bin.largest = std::max(bin.largest, theta);
+  if (size_++ == 0 || theta < least_) {
+    least_ = theta;
+    equal_to_least_ = 0;
+  }
+  equal_to_least_ += theta == least_;
+}
+
+Json ThinnedCdf::steps() const {
   Json steps = Json::array();
-  const auto bin_of = [](double theta) { return std::floor(nearest::log10(theta) * bins_per_decade); };
-  for (std::size_t k = 0; k < cdf.values.size(); ++k) {
-    const bool last = k + 1 == cdf.values.size();
-    if (!last && k > 0 && bin_of(cdf.values[k]) == bin_of(cdf.values[k + 1])) continue;
-    steps.push_back({shortened(cdf.values[k]), shortened(cdf.heights[k])});
+  const auto add_step = [&](double theta, std::size_t below) {
+    steps.push_back({shortened(theta), shortened(static_cast<double>(below) / static_cast<double>(size_))});
+  };
+  if (size_ > 0) add_step(least_, equal_to_least_);
+  std::size_t below = 0;
+  for (const auto& bin : bins_) {
+    below += bin.angles;
+    if (bin.largest > least_) add_step(bin.largest, below);
   }
   return steps;
 }

@@ -1,7 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
-#include <span>
+#include <vector>
 
 #include "engine/packing/mixture/mixture.hpp"
 #include "tasks/io/json.hpp"
@@ -15,13 +16,27 @@ namespace isojam {
 /// For a mixture, the critical angles are the smallest ones of its solids, and "random" is empty.
 Json angle_references(const Mixture& mixture);
 
-/// The empirical distribution of angles (radians, in any order) as [[θ in degrees, c], ...], with one entry for each
-/// step. Where steps are too close in log θ for a diagram to resolve them, it contains only the last one. Angles below
-/// `angle_floor` are replaced by `angle_floor`.
-Json thinned_cdf(std::span<const double> angles);
-
 /// Smallest angle that is drawn, in degrees.
 inline constexpr double angle_floor = 1e-6;
+
+/// The empirical distribution of angles. It needs no more memory for more angles: where steps are too close in log θ
+/// for a diagram to resolve them, it has only the last one. Angles below `angle_floor` are replaced by `angle_floor`.
+class ThinnedCdf {
+ public:
+  void add(double angle);  ///< in radians
+  std::size_t size() const { return size_; }
+  /// [[θ in degrees, c], ...], with one entry for each step.
+  Json steps() const;
+
+ private:
+  struct Bin {
+    std::size_t angles = 0;
+    double largest = 0;
+  };
+  std::vector<Bin> bins_;  ///< in ascending order
+  double least_ = 0;
+  std::size_t size_ = 0, equal_to_least_ = 0;
+};
 
 /// Jamming density in Table I of the paper, and half the width of its 95 % confidence interval.
 struct PaperDensity {

@@ -11,7 +11,6 @@
 
 #include "engine/arithmetic/elementary.hpp"
 #include "tasks/measure/shared_parts.hpp"
-#include "tasks/measure/trough_parts.hpp"
 
 namespace isojam {
 namespace {
@@ -27,26 +26,19 @@ Numbers bins_at(const Json& json, const std::string& pointer) {
   return all ? list.get<Numbers>() : Numbers{};
 }
 
-/// Sum of a list over the states. `edges` are the edges of the bins, which are the same in all states.
-struct Summed {
-  Numbers edges, sums;
-  int states = 0;
-};
+using Summed = Distributions::Summed;
 
-Summed summed(std::span<const Json> states, const std::string& edges, const std::string& values) {
-  Summed total;
-  for (const Json& state : states) {
-    auto ends = bins_at(state, edges), list = bins_at(state, values);
-    if (list.empty() || ends.size() != list.size() + 1) continue;
-    if (total.states == 0) {
-      total.edges = ends;
-      total.sums.assign(list.size(), 0);
-    }
-    total.sums.resize(std::min(total.sums.size(), list.size()));
-    for (std::size_t k = 0; k < total.sums.size(); ++k) total.sums[k] += list[k];
-    ++total.states;
+constexpr std::array classes{"face_face", "edge_face", "lower_order"};
+
+void add_list(Summed& total, const Json& state, const std::string& edges, const std::string& values) {
+  auto ends = bins_at(state, edges), list = bins_at(state, values);
+  if (list.empty() || ends.size() != list.size() + 1) return;
+  if (total.states++ == 0) {
+    total.edges = std::move(ends);
+    total.sums.assign(list.size(), 0);
   }
-  return total;
+  total.sums.resize(std::min(total.sums.size(), list.size()));
+  for (std::size_t k = 0; k < total.sums.size(); ++k) total.sums[k] += list[k];
 }
 
 /// The curve [[x, y], ...] of a sum over logarithmic bins, between the first and the last bin with values. `y` is
@@ -63,101 +55,95 @@ Json curve_of(const Summed& total, double unit, const std::function<double(doubl
   return curve;
 }
 
-Json forces_of(std::span<const Json> states) {
-  Json json;
-  double all = 0;
-  std::array<Summed, 3> classes;
-  constexpr std::array names{"face_face", "edge_face", "lower_order"};
-  for (std::size_t c = 0; c < names.size(); ++c) {
-    const std::string place = std::string("/gaps/") + names[c];
-    classes[c] = summed(states, "/gaps/log10_force", place + "/counts");
-    all += std::accumulate(classes[c].sums.begin(), classes[c].sums.end(), 0.0);
-  }
-  if (!(all > 0)) return nullptr;
-  auto total = classes[0];
-  for (std::size_t c = 1; c < names.size(); ++c) {
-    for (std::size_t k = 0; k < std::min(total.sums.size(), classes[c].sums.size()); ++k)
-      total.sums[k] += classes[c].sums[k];
-  }
-  const auto density = [&](double count, double low, double high) { return count / (all * (high - low)); };
-  json["curves"]["all"] = curve_of(total, 1, density);
-  for (std::size_t c = 0; c < names.size(); ++c) json["curves"][names[c]] = curve_of(classes[c], 1, density);
-  json["states"] = total.states;
-  return json;
-}
-
-using Counts = std::vector<double> (*)(const AngleHistogram& histogram);
-
-/// Sum of the angles of the states, in wider bins than those of the records and without angles below 1e-4 rad.
-Summed summed_angles(std::span<const Json> states, Counts counts) {
+/// Adds the angles of a state, in wider bins than those of the records and without angles below 1e-4 rad.
+void add_angles(Summed& total, const std::vector<double>& counts) {
   constexpr int wide = angle_bins_per_decade / Histogram::per_decade, from = -4;
   constexpr int first = (from - angle_bins_from) * angle_bins_per_decade;
-  Summed total;
-  total.sums.assign((angle_bins - first + wide - 1) / wide, 0);
-  for (std::size_t k = 0; k <= total.sums.size(); ++k)
-    total.edges.push_back(from + static_cast<double>(k) / Histogram::per_decade);
-  for (const Json& state : states) {
-    const Json::json_pointer place{std::string(angle_bins_pointer)};
-    if (!state.contains(place)) continue;
-    const auto list = counts(read_angle_histogram({state.at(place), "record"}));
-    for (int k = first; k < angle_bins; ++k)
-      total.sums[static_cast<std::size_t>((k - first) / wide)] += list[static_cast<std::size_t>(k)];
-    ++total.states;
+  if (total.states++ == 0) {
+    total.sums.assign((angle_bins - first + wide - 1) / wide, 0);
+    for (std::size_t k = 0; k <= total.sums.size(); ++k)
+      total.edges.push_back(from + static_cast<double>(k) / Histogram::per_decade);
   }
-  return total;
+  for (int k = first; k < angle_bins; ++k)
+    total.sums[static_cast<std::size_t>((k - first) / wide)] += counts[static_cast<std::size_t>(k)];
 }
 
-Json angles_of(std::span<const Json> states, Counts counts) {
-  const auto total = summed_angles(states, counts);
+Json angles_of(const Summed& total) {
   const double all = std::accumulate(total.sums.begin(), total.sums.end(), 0.0);
   if (!(all > 0)) return nullptr;
   const auto per_decade = [&](double count, double, double) { return count / all * Histogram::per_decade; };
   return {{"curves", {{"all", curve_of(total, 180 / std::numbers::pi, per_decade)}}}, {"states", total.states}};
 }
 
-Json pairs_of(std::span<const Json> states) {
-  const auto total = summed(states, "/gaps/r", "/gaps/g");
-  if (total.sums.empty()) return nullptr;
-  Json curve = Json::array();
-  for (std::size_t k = 0; k < total.sums.size(); ++k)
-    curve.push_back(
-        {to_digits((total.edges[k] + total.edges[k + 1]) / 2, 5), to_digits(total.sums[k] / total.states, 5)});
-  return {{"curves", {{"all", std::move(curve)}}}, {"states", total.states}};
-}
-
-/// Density of the exponents x of the contacts (analysis/exponents.hpp), in bins of 0.1 that are centred on the classes.
-Json exponents_of(std::span<const Json> states) {
-  constexpr int per_unit = 10, from = -8 * per_unit, bins = 11 * per_unit;
-  Numbers counts(bins, 0);
-  long contacts = 0;
-  int measured = 0;
-  for (const Json& state : states) {
-    const Json::json_pointer place("/exponents/x");
-    if (!state.contains(place) || state.at(place).empty()) continue;
-    ++measured;
-    for (const Json& x : state.at(place)) {
-      ++contacts;
-      if (!x.is_number()) continue;
-      const auto bin = std::lround(x.get<double>() * per_unit) - from;
-      if (bin >= 0 && bin < bins) ++counts[static_cast<std::size_t>(bin)];
-    }
-  }
-  if (measured == 0) return nullptr;
-  Json curve = Json::array();
-  for (int k = 0; k < bins; ++k)
-    curve.push_back({to_digits(static_cast<double>(k + from) / per_unit, 3),
-                     to_digits(counts[static_cast<std::size_t>(k)] / static_cast<double>(contacts) * per_unit, 5)});
-  return {{"curves", {{"all", std::move(curve)}}}, {"states", measured}};
-}
+// Exponents x of the contacts (analysis/exponents.hpp) are in bins of 0.1 that are centred on the classes.
+constexpr int bins_per_unit = 10, exponents_from = -8 * bins_per_unit, exponent_bins = 11 * bins_per_unit;
 
 }  // namespace
 
-Json pooled_distributions(std::span<const Json> states) {
-  return {{"forces", forces_of(states)},
-          {"pairs", pairs_of(states)},
-          {"exponents", exponents_of(states)},
-          {"face_face", angles_of(states, [](const AngleHistogram& all) { return all.face_face; })},
-          {"edge_face", angles_of(states, [](const AngleHistogram& all) { return all.edge_face_of_others(0); })}};
+void Distributions::add(const Json& state, const std::optional<AngleHistogram>& angles) {
+  for (std::size_t c = 0; c < classes.size(); ++c)
+    add_list(forces_[c], state, "/gaps/log10_force", std::string("/gaps/") + classes[c] + "/counts");
+  add_list(pairs_, state, "/gaps/r", "/gaps/g");
+  add_exponents(state);
+  if (!angles) return;
+  add_angles(face_face_, angles->face_face);
+  add_angles(edge_face_, angles->edge_face_of_others(0));
+}
+
+void Distributions::add_exponents(const Json& state) {
+  const Json::json_pointer place("/exponents/x");
+  if (!state.contains(place) || state.at(place).empty()) return;
+  if (exponents_.states++ == 0) exponents_.sums.assign(exponent_bins, 0);
+  for (const Json& x : state.at(place)) {
+    ++contacts_;
+    if (!x.is_number()) continue;
+    const auto bin = std::lround(x.get<double>() * bins_per_unit) - exponents_from;
+    if (bin >= 0 && bin < exponent_bins) ++exponents_.sums[static_cast<std::size_t>(bin)];
+  }
+}
+
+Json Distributions::forces() const {
+  Json json;
+  double all = 0;
+  for (const auto& one : forces_) all += std::accumulate(one.sums.begin(), one.sums.end(), 0.0);
+  if (!(all > 0)) return nullptr;
+  auto total = forces_[0];
+  for (std::size_t c = 1; c < classes.size(); ++c) {
+    for (std::size_t k = 0; k < std::min(total.sums.size(), forces_[c].sums.size()); ++k)
+      total.sums[k] += forces_[c].sums[k];
+  }
+  const auto density = [&](double count, double low, double high) { return count / (all * (high - low)); };
+  json["curves"]["all"] = curve_of(total, 1, density);
+  for (std::size_t c = 0; c < classes.size(); ++c) json["curves"][classes[c]] = curve_of(forces_[c], 1, density);
+  json["states"] = total.states;
+  return json;
+}
+
+Json Distributions::pairs() const {
+  if (pairs_.sums.empty()) return nullptr;
+  Json curve = Json::array();
+  for (std::size_t k = 0; k < pairs_.sums.size(); ++k)
+    curve.push_back(
+        {to_digits((pairs_.edges[k] + pairs_.edges[k + 1]) / 2, 5), to_digits(pairs_.sums[k] / pairs_.states, 5)});
+  return {{"curves", {{"all", std::move(curve)}}}, {"states", pairs_.states}};
+}
+
+Json Distributions::exponents() const {
+  if (exponents_.states == 0) return nullptr;
+  Json curve = Json::array();
+  for (int k = 0; k < exponent_bins; ++k)
+    curve.push_back(
+        {to_digits(static_cast<double>(k + exponents_from) / bins_per_unit, 3),
+         to_digits(exponents_.sums[static_cast<std::size_t>(k)] / static_cast<double>(contacts_) * bins_per_unit, 5)});
+  return {{"curves", {{"all", std::move(curve)}}}, {"states", exponents_.states}};
+}
+
+Json Distributions::json() const {
+  return {{"forces", forces()},
+          {"pairs", pairs()},
+          {"exponents", exponents()},
+          {"face_face", angles_of(face_face_)},
+          {"edge_face", angles_of(edge_face_)}};
 }
 
 }  // namespace isojam

@@ -1,19 +1,20 @@
 #include "tasks/extras/report/gather.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "engine/analysis/power_law.hpp"
 #include "engine/arithmetic/elementary.hpp"
 #include "engine/solve/straight_line.hpp"
-#include "tasks/extras/report/angle_curves.hpp"
-#include "tasks/extras/report/distributions.hpp"
+#include "tasks/extras/page/page.hpp"
 #include "tasks/io/options.hpp"
 #include "tasks/manifest/plan.hpp"
 #include "tasks/measure/quantity.hpp"
@@ -24,8 +25,6 @@
 
 namespace isojam {
 namespace {
-
-using Members = std::vector<const RecordedReplicate*>;
 
 /// Value at a JSON pointer, or null if it is missing: a report shows what exists.
 Json value_at(const Json& json, const std::string& pointer) {
@@ -95,8 +94,7 @@ Json state_points(const Json& record) {
 }
 
 /// The line that was fitted to obtain φ_J, from φ_J to the farthest fitted state. Null if it cannot be drawn.
-Json extrapolation(const Json& record) {
-  const auto states = state_points(record);
+Json extrapolation(const Json& record, const Json& states) {
   std::vector<double> roots, densities;
   for (const double index : numbers_at(record, "/phi_j/states")) {
     if (index < 0 || index >= static_cast<double>(states.size())) return nullptr;
@@ -167,17 +165,16 @@ Json nearest_state(const Json& record) {
   return nearest.is_null() ? Json(nullptr) : value_at(record, "/states/" + std::to_string(nearest.get<int>()));
 }
 
-Json replicate_entry(const RecordedReplicate& replicate, int row, const std::vector<Flag>& exclude) {
+/// The data of a replicate but for its name and its row.
+Json replicate_entry(const RecordedReplicate& replicate, const Json& nearest, bool excluded) {
   const auto& record = replicate.record;
   Json json;
-  json["name"] = replicate.name;
-  json["row"] = row;
   json["replicate"] = replicate.summary.replicate;
   json["status"] = replicate.summary.failed ? "failed" : "done";
   json["flags"] = Json::array();
   for (const auto& flag : list_at(record, "/flags"))
     json["flags"].push_back(flag.is_string() ? flag : Json(flag.dump()));
-  json["excluded"] = has_any(replicate.summary, exclude);
+  json["excluded"] = excluded;
   json["failure"] = nullptr;
   if (replicate.summary.failed)
     json["failure"] = {{"where", text_at(record, "/failure/where")}, {"why", text_at(record, "/failure/why")}};
@@ -186,10 +183,9 @@ Json replicate_entry(const RecordedReplicate& replicate, int row, const std::vec
   json["cpu_seconds"] = number_at(record, "/timing/cpu_seconds");
   json["evaluations"] = number_at(record, "/evaluations");
   json["states"] = state_points(record);
-  json["line"] = extrapolation(record);
+  json["line"] = extrapolation(record, json["states"]);
   json["stops"] = stop_counts(record);
   json["density_of_states"] = nullptr;
-  const auto nearest = nearest_state(record);
   for (const std::string key : {"log10_omega", "density"}) {
     const auto list = numbers_at(nearest, "/modes/density_of_states/" + key);
     if (!list.empty()) json["density_of_states"][key] = list;
@@ -215,90 +211,11 @@ Json base_of(const Json& manifest) {
   return base.is_object() ? base : Json(Json::object());
 }
 
-/// The replicates that neither failed nor are excluded.
-Members counting(const Members& members, const std::vector<Flag>& exclude) {
-  Members list;
-  std::copy_if(members.begin(), members.end(), std::back_inserter(list), [&](const RecordedReplicate* member) {
-    return !member->summary.failed && !has_any(member->summary, exclude);
-  });
-  return list;
-}
-
-/// Distributions of the angles over the contacts of all replicates. Null if no replicate has angles.
-Json pooled_angles(const Members& members) {
-  Json json;
-  for (const std::string kind : {"face_face", "edge_face"}) {
-    std::vector<double> angles, cutoffs;
-    int replicates = 0;
-    for (const auto* member : members) {
-      const auto state = nearest_state(member->record);
-      auto more = numbers_at(state, "/contacts/angles/" + kind);
-      replicates += more.empty() ? 0 : 1;
-      angles.insert(angles.end(), more.begin(), more.end());
-      const auto cutoff = number_at(state, "/contacts/" + kind + "_fit/cutoff");
-      if (!cutoff.is_null()) cutoffs.push_back(cutoff.get<double>() * 180 / std::numbers::pi);
-    }
-    if (angles.empty()) return nullptr;
-    std::sort(cutoffs.begin(), cutoffs.end());
-    json[kind] = {{"cdf", thinned_cdf(angles)}, {"contacts", angles.size()}, {"replicates", replicates}};
-    json[kind]["cutoff"] = cutoffs.empty() ? Json(nullptr) : Json(cutoffs[cutoffs.size() / 2]);
-  }
-  return json;
-}
-
-/// Fit ⟨ω⟩ ∝ Δφ^x to the states of all replicates near jamming. Null if there are too few states.
-Json pooled_scaling(const Members& members, const std::string& key) {
-  std::vector<double> distances, values;
-  for (const auto* member : members) {
-    for (const auto& state : state_points(member->record)) {
-      if (state.at(key).is_null() || state.at("delta_phi").is_null()) continue;
-      const double distance = state.at("delta_phi").get<double>();
-      if (distance <= 0 || distance > scaling_window) continue;
-      distances.push_back(distance);
-      values.push_back(state.at(key).get<double>());
-    }
-  }
-  const auto law = fit_power_law(distances, values);
-  if (!law) return nullptr;
-  const auto [nearest, farthest] = std::minmax_element(distances.begin(), distances.end());
-  Json json{{"exponent", law->exponent}, {"prefactor", law->prefactor}, {"points", law->points}};
-  json["ci95_half_width"] = law->points > 2 ? Json(law->ci95_half_width) : Json(nullptr);
-  json["from"] = *nearest;
-  json["to"] = *farthest;
-  return json;
-}
-
-Json row_entry(const Row& row, const Members& chosen) {
-  Json json = to_json(row);
-  json["label"] = label_of(row);
-  const auto paper = paper_density(row.solid, row.particles);
-  json["paper"] = nullptr;
-  if (paper) json["paper"] = {{"phi_j", paper->phi_j}, {"half_width", paper->half_width}};
-  json["scaling"] = {{"omega_l", pooled_scaling(chosen, "omega_l")}, {"omega_h", pooled_scaling(chosen, "omega_h")}};
-  json["angles"] = pooled_angles(chosen);
-  std::vector<Json> nearest;
-  for (const auto* member : chosen) nearest.push_back(nearest_state(member->record));
-  json["distributions"] = pooled_distributions(nearest);
-  return json;
-}
-
-Json provenance_list(const Results& results) {
-  Json builds = Json::array();
-  for (const auto& replicate : results.replicates) {
-    Json build;
-    for (const std::string key : {"version", "git", "compiler", "seed"})
-      build[key] = text_at(replicate.record, "/provenance/" + key);
-    add_distinct(builds, build);
-  }
-  return builds;
-}
-
-Json measure_list(const Results& results) {
-  Json measures = Json::array();
-  for (const auto& replicate : results.replicates) {
-    for (const auto& measure : list_at(replicate.record, "/spec/measure")) add_distinct(measures, measure);
-  }
-  return measures;
+Json provenance_of(const Json& record) {
+  Json build;
+  for (const std::string key : {"version", "git", "compiler", "seed"})
+    build[key] = text_at(record, "/provenance/" + key);
+  return build;
 }
 
 /// Measures that can still be added with "isojam measure".
@@ -319,64 +236,132 @@ Json column_list() {
   return columns;
 }
 
-Json solid_list(const Results& results) {
-  Json solids = Json::object();
-  for (const auto& replicate : results.replicates) {
-    const auto name = std::string(to_string(replicate.summary.solid));
-    if (solids.contains(name)) continue;
-    const auto& mixture = replicate.summary.solid;
-    solids[name] = mixture.is_one_solid() ? solid_shape(*mixture.solid()) : Json::object();
-    solids[name].update(angle_references(mixture));
-    if (mixture.is_one_solid()) continue;
-    for (const auto& kind : mixture.kinds()) {
-      solids[name]["shapes"].push_back(solid_shape(*kind.solid));
-      solids[name]["shapes"].back()["name"] = kind.solid->name();
-    }
+Json solid_of(const Mixture& mixture) {
+  Json solid = mixture.is_one_solid() ? solid_shape(*mixture.solid()) : Json::object();
+  solid.update(angle_references(mixture));
+  if (mixture.is_one_solid()) return solid;
+  for (const auto& kind : mixture.kinds()) {
+    solid["shapes"].push_back(solid_shape(*kind.solid));
+    solid["shapes"].back()["name"] = kind.solid->name();
   }
-  return solids;
+  return solid;
+}
+
+/// The text of an object without its braces.
+std::string members(const Json& object) {
+  const auto text = page_text(object);
+  return text.substr(1, text.size() - 2);
 }
 
 }  // namespace
 
-Json report_data(const Results& results, const std::map<std::size_t, Json>& views) {
-  const auto exclude = exclude_of(results.manifest);
-  Aggregation aggregation(exclude, base_of(results.manifest));
-  std::map<std::string, Members> points;
-  for (const auto& replicate : results.replicates) {
-    aggregation.add(replicate.summary);
-    points[point_of(replicate.summary)].push_back(&replicate);
+void ReportData::Scaling::add(const Json& states, const char* key) {
+  for (const auto& state : states) {
+    if (state.at(key).is_null() || state.at("delta_phi").is_null()) continue;
+    const double distance = state.at("delta_phi").get<double>();
+    if (distance <= 0 || distance > scaling_window) continue;
+    distances.push_back(distance);
+    values.push_back(state.at(key).get<double>());
   }
-  const auto table = aggregation.table(rule_of(results.manifest));
+}
 
+Json ReportData::Scaling::json() const {
+  const auto law = fit_power_law(distances, values);
+  if (!law) return nullptr;
+  const auto [nearest, farthest] = std::minmax_element(distances.begin(), distances.end());
+  Json json{{"exponent", law->exponent}, {"prefactor", law->prefactor}, {"points", law->points}};
+  json["ci95_half_width"] = law->points > 2 ? Json(law->ci95_half_width) : Json(nullptr);
+  json["from"] = *nearest;
+  json["to"] = *farthest;
+  return json;
+}
+
+void ReportData::Angles::add(const Json& nearest, const std::string& kind) {
+  const auto angles = numbers_at(nearest, "/contacts/angles/" + kind);
+  replicates += angles.empty() ? 0 : 1;
+  for (const double angle : angles) cdf.add(angle);
+  const auto cutoff = number_at(nearest, "/contacts/" + kind + "_fit/cutoff");
+  if (!cutoff.is_null()) cutoffs.push_back(cutoff.get<double>() * 180 / std::numbers::pi);
+}
+
+Json ReportData::Angles::json() const {
+  auto sorted = cutoffs;
+  std::sort(sorted.begin(), sorted.end());
+  return {{"cdf", cdf.steps()},
+          {"contacts", cdf.size()},
+          {"replicates", replicates},
+          {"cutoff", sorted.empty() ? Json(nullptr) : Json(sorted[sorted.size() / 2])}};
+}
+
+ReportData::ReportData(Json manifest)
+    : manifest_(std::move(manifest)), exclude_(exclude_of(manifest_)), aggregation_(exclude_, base_of(manifest_)) {}
+
+void ReportData::add(const RecordedReplicate& replicate, const std::string& name) {
+  const auto& [summary, record] = std::tie(replicate.summary, replicate.record);
+  aggregation_.add(summary);
+  add_distinct(builds_, provenance_of(record));
+  for (const auto& measure : list_at(record, "/spec/measure")) add_distinct(measures_, measure);
+  const auto solid = std::string(to_string(summary.solid));
+  if (!solids_.contains(solid)) solids_[solid] = solid_of(summary.solid);
+  viewable_.push_back({name, point_of(summary), summary.particles, summary.failed, summary.flagged});
+  const bool excluded = has_any(summary, exclude_);
+  const auto nearest = nearest_state(record);
+  const auto entry = replicate_entry(replicate, nearest, excluded);
+  entries_.push_back(members(entry));
+  auto& pool = pools_[viewable_.back().point];
+  if (summary.failed || excluded) return;
+  for (auto& [key, scaling] : pool.scaling) scaling.add(entry.at("states"), key);
+  for (auto& [kind, angles] : pool.angles) angles.add(nearest, kind);
+  pool.distributions.add(nearest, summary.angles);
+}
+
+Json ReportData::row_entry(const Row& row) const {
+  const auto& pool = pools_.at(point_of(row));
+  Json json = to_json(row);
+  json["label"] = label_of(row);
+  const auto paper = paper_density(row.solid, row.particles);
+  json["paper"] = nullptr;
+  if (paper) json["paper"] = {{"phi_j", paper->phi_j}, {"half_width", paper->half_width}};
+  for (const auto& [key, scaling] : pool.scaling) json["scaling"][key] = scaling.json();
+  const bool all = std::ranges::all_of(pool.angles, [](const auto& kind) { return kind.second.cdf.size() > 0; });
+  json["angles"] = nullptr;
+  for (const auto& [kind, angles] : pool.angles) {
+    if (all) json["angles"][kind] = angles.json();
+  }
+  json["distributions"] = pool.distributions.json();
+  return json;
+}
+
+std::string ReportData::text(const std::vector<std::string>& views, const Json& more) {
+  const auto table = aggregation_.table(rule_of(manifest_));
   Json data;
-  data["manifest"] = {{"name", text_at(results.manifest, "/name")}, {"seed", text_at(results.manifest, "/seed")}};
-  data["exclude"] = option_json(exclude);
-  data["builds"] = provenance_list(results);
-  data["measures"] = measure_list(results);
-  data["addable"] = addable_list(data["measures"]);
-  data["keeps_paths"] = value_at(results.manifest, "/keep_path") == true;
+  data["manifest"] = {{"name", text_at(manifest_, "/name")}, {"seed", text_at(manifest_, "/seed")}};
+  data["exclude"] = option_json(exclude_);
+  data["builds"] = builds_;
+  data["measures"] = measures_;
+  data["addable"] = addable_list(measures_);
+  data["keeps_paths"] = value_at(manifest_, "/keep_path") == true;
   data["columns"] = column_list();
   data["parameters"] = Json::object();
   for (const auto& name : parameter_names(table)) data["parameters"][name] = parameter_head(name);
   data["rows"] = Json::array();
-  std::map<std::string, int> place;
+  std::map<std::string, std::size_t> place;
   for (const auto& row : table.rows) {
-    const auto point = point_of(row);
-    place.emplace(point, static_cast<int>(place.size()));
-    data["rows"].push_back(row_entry(row, counting(points.at(point), exclude)));
+    place.emplace(point_of(row), place.size());
+    data["rows"].push_back(row_entry(row));
   }
   data["base"] = difference_title(table);
   data["csv"] = to_csv(table);
   data["latex"] = to_latex(table);
-  data["replicates"] = data["views"] = Json::array();
-  for (const auto& replicate : results.replicates)
-    data["replicates"].push_back(replicate_entry(replicate, place.at(point_of(replicate.summary)), exclude));
-  data["solids"] = solid_list(results);
-  for (const auto& [replicate, view] : views) {
-    data["views"].push_back(view);
-    data["views"].back()["name"] = results.replicates[replicate].name;
+  auto text = fmt::format("{{{},\"views\":[{}],\"replicates\":[", members(data), fmt::join(views, ","));
+  for (std::size_t k = 0; k < entries_.size(); ++k) {
+    const auto& [name, point] = std::tie(viewable_[k].name, viewable_[k].point);
+    text += fmt::format("{}{{\"name\":{},\"row\":{},{}}}", k > 0 ? "," : "", page_text(name), place.at(point),
+                        std::exchange(entries_[k], {}));
   }
-  return data;
+  Json rest{{"solids", solids_}};
+  rest.update(more);
+  return text + "]," + members(rest) + "}";
 }
 
 }  // namespace isojam

@@ -4,6 +4,6 @@
 
 namespace isojam {
 
-std::string report_page(const Json& data) { return assembled_page(report_parts(), data); }
+std::string report_page(std::string_view data) { return assembled_page(report_parts(), data); }
 
 }  // namespace isojam

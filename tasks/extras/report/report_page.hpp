@@ -1,13 +1,12 @@
 #pragma once
 
 #include <string>
-
-#include "tasks/io/json.hpp"
+#include <string_view>
 
 namespace isojam {
 
-/// Makes the HTML file of a report. `data` is the result of report_data(). The file is self-contained: it loads no
+/// Makes the HTML file of a report. `data` is the text of ReportData::text(). The file is self-contained: it loads no
 /// other files. Text in `data` is never interpreted as HTML.
-std::string report_page(const Json& data);
+std::string report_page(std::string_view data);
 
 }  // namespace isojam

@@ -10,9 +10,7 @@
 #include "engine/packing/energy.hpp"
 #include "engine/vibration/dynamical_matrix.hpp"
 #include "engine/vibration/spectrum.hpp"
-#include "tasks/manifest/plan.hpp"
 #include "tasks/measure/shared_parts.hpp"
-#include "tasks/records/summary.hpp"
 
 namespace isojam {
 namespace {
@@ -148,16 +146,14 @@ Json mode_list(const Packing& packing, PackingEnergy& energy, int modes) {
 
 }  // namespace
 
-std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& options) {
+std::vector<ChosenView> choose_views(std::span<const Viewable> all, const ViewOptions& options) {
   std::map<std::string, std::vector<std::size_t>> points;
-  for (std::size_t k = 0; k < results.replicates.size(); ++k) {
-    const auto& summary = results.replicates[k].summary;
-    if (!summary.failed) points[point_text(summary.solid, summary.particles, summary.parameters)].push_back(k);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (!all[k].failed) points[all[k].point].push_back(k);
   }
   std::size_t most = 0;
   for (auto& [point, replicates] : points) {
-    std::stable_partition(replicates.begin(), replicates.end(),
-                          [&](std::size_t k) { return !results.replicates[k].summary.flagged; });
+    std::stable_partition(replicates.begin(), replicates.end(), [&](std::size_t k) { return !all[k].flagged; });
     most = std::max(most, replicates.size());
   }
   std::vector<ChosenView> chosen;
@@ -165,7 +161,7 @@ std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& 
   for (std::size_t turn = 0; turn < most; ++turn) {
     for (const auto& [point, replicates] : points) {
       if (turn >= replicates.size()) continue;
-      const int particles = results.replicates[replicates[turn]].summary.particles;
+      const int particles = all[replicates[turn]].particles;
       if (turn > 0 && particles > room) continue;
       room -= particles;
       const bool affordable = particles <= left;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "engine/analysis/clusters.hpp"
 #include "engine/packing/packing.hpp"
-#include "tasks/records/results.hpp"
+#include "tasks/io/json.hpp"
 
 namespace isojam {
 
@@ -18,9 +20,16 @@ struct ViewOptions {
   int modes = 4;  ///< number of modes at each end of the spectrum
 };
 
+/// What choose_views() needs of a replicate.
+struct Viewable {
+  std::string name, point;
+  int particles = 0;
+  bool failed = false, flagged = false;
+};
+
 /// A replicate whose packing is shown.
 struct ChosenView {
-  std::size_t replicate = 0;  ///< index of the replicate in the results
+  std::size_t replicate = 0;  ///< index of the replicate
   /// true if the view has modes; false if the total number of particles of views with modes would exceed `budget`
   bool with_modes = false;
 };
@@ -29,7 +38,7 @@ struct ChosenView {
 /// that did not fail and has no flag, or else the first one that did not fail. Then it repeatedly adds one more
 /// replicate of each sweep point, as long as the limits in ViewOptions allow. The result is sorted by the index of the
 /// replicate.
-std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& options = {});
+std::vector<ChosenView> choose_views(std::span<const Viewable> all, const ViewOptions& options = {});
 
 /// Data of a packing for the three-dimensional view.
 /// - For each particle: its position in the cell, orientation (w, x, y, z), number of contacts, local Q6, and cluster.

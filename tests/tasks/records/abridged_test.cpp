@@ -42,7 +42,7 @@ TEST(Abridged, KeepsWhatTablesNeed) {
   test::write_text(directory / "m.json", manifest.dump());
   ASSERT_EQ(test::isojam({"run", "m.json", "-o", "r"}, directory.path()).exit_code, 0);
   const auto name = names_in(directory / "r/records").at(0);
-  const auto whole = read_record(directory / "r", name), quick = read_abridged_record(directory / "r", name);
+  const auto whole = read_record(directory / "r", name), quick = read_record(directory / "r", name, Abridgement{});
   EXPECT_FALSE(whole.document.path.empty());
   EXPECT_TRUE(quick.document.path.empty());
   EXPECT_LT(quick.record.dump().size(), whole.record.dump().size() / 2);
@@ -51,7 +51,7 @@ TEST(Abridged, KeepsWhatTablesNeed) {
   EXPECT_EQ(quick.record.at(bins), whole.record.at(bins));
   EXPECT_TRUE(quick.summary.angles);
   EXPECT_FALSE(quick.summary.states.empty());
-  const auto brief = read_record_without_states(directory / "r", name);
+  const auto brief = read_record(directory / "r", name, Abridgement{States::nearest});
   EXPECT_EQ(brief.summary.values, whole.summary.values);
   ASSERT_EQ(brief.document.states.size(), 1U);
   EXPECT_EQ(brief.document.states[0].index,
@@ -91,7 +91,7 @@ TEST(Abridged, LeavesOnlyListsAndOtherKeysOut) {
   for (const auto& record : unusual_records()) {
     const auto text = sealed(record);
     auto expected = parse_sealed(text, "record");
-    auto shorter = parsed(abridged(text, States::all));
+    auto shorter = parsed(abridged(text, {}));
     EXPECT_EQ(shorter.at("path"), Json::array());
     expected["path"] = Json::array();
     for (const auto& difference : Json::diff(expected, shorter))
@@ -109,14 +109,14 @@ TEST(Abridged, IsReadOnlyIfItsChecksumIsRight) {
     const auto name = replicate_name(test::make_plan(parse_manifest(test::good_manifest().dump(), "m")).front());
     const auto file = directory / "records" / (name + ".json");
     test::write_text(file, text);
-    expect_same(read_abridged_record(directory.path(), name), read_record(directory.path(), name));
+    expect_same(read_record(directory.path(), name, Abridgement{}), read_record(directory.path(), name));
     for (std::size_t at = 0; at < text.size(); at += 97) {
       auto changed = text;
       changed[at] = static_cast<char>(changed[at] ^ 1);
       test::write_text(file, changed);
-      EXPECT_THROW(read_abridged_record(directory.path(), name), InputError) << at;
+      EXPECT_THROW(read_record(directory.path(), name, Abridgement{}), InputError) << at;
       test::write_text(file, text.substr(0, at));
-      EXPECT_THROW(read_record_without_states(directory.path(), name), InputError) << at;
+      EXPECT_THROW(read_record(directory.path(), name, Abridgement{States::nearest}), InputError) << at;
     }
   }
 }
