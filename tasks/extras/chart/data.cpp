@@ -1,6 +1,7 @@
 #include "tasks/extras/chart/data.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "tasks/io/version.hpp"
 
@@ -106,25 +107,11 @@ void describe(Fields& field, ChartData& data) {
                "object of numbers"},
               "CPU time of each part of the chart, including computations that are not measured.")
       .unit("s");
-  field("conclusion", data.conclusion, "The conclusion in whole sentences.").length(1);
-}
-
-std::span<const ChartPoint> points_of(std::span<const ChartFamily> families, std::string_view name) {
-  for (const ChartFamily& family : families) {
-    if (family.name == name) return family.points;
-  }
-  return {};
 }
 
 Json chart_data(const ChartConfig& config, const ChartResult& result) {
-  ChartData data{"isojam.chart.v3",
-                 std::string(version()),
-                 std::string(git_hash()),
-                 std::string(compiler()),
-                 1,
-                 config,
-                 result,
-                 conclusion(points_of(result.families, "equilibrium"), points_of(result.families, "bias"))};
+  ChartData data{
+      "isojam.chart.v3", std::string(version()), std::string(git_hash()), std::string(compiler()), 1, config, result};
   for (ChartFamily& family : data.result.families) {
     for (ChartPoint& point : family.points) point.on_front = on_front(family.points, point);
   }

@@ -1,14 +1,34 @@
 #pragma once
 
-#include <span>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "tasks/extras/chart/chart_result.hpp"
+#include "tasks/extras/chart/atlas/atlas.hpp"
 #include "tasks/extras/chart/config.hpp"
+#include "tasks/extras/chart/point.hpp"
 
 namespace isojam {
+
+/// The stability atlas of a chart, see atlas.hpp.
+struct ChartAtlas {
+  FamilyEnd ended = FamilyEnd::complete;
+  std::vector<AtlasRow> rows;
+};
+
+/// CPU time of a part of a chart. It includes work that no point of the chart contains, such as making the packings.
+struct PartCost {
+  std::string part;  ///< name of a comparison; or "packings" or "equilibria", which several comparisons use
+  double cpu_seconds = 0;
+};
+
+/// Results of run_chart().
+// NOLINTNEXTLINE(bugprone-exception-escape): moving a Json never throws, but the check assumes that its assertions can.
+struct ChartResult {
+  std::vector<ChartFamily> families;
+  std::optional<ChartAtlas> atlas;  ///< nullopt if the configuration does not request the atlas
+  std::vector<PartCost> costs;      ///< in the order in which the parts were measured
+};
 
 /// The content of data.json, which the page of the chart shows.
 struct ChartData {
@@ -16,23 +36,13 @@ struct ChartData {
   int threads = 1;
   ChartConfig config;
   ChartResult result;
-  std::vector<std::string> conclusion;
 };
 void describe(Fields& field, ChartData& data);
 
-/// Makes the data with the build, the Pareto fronts of the families, and the conclusion.
+/// Makes the data with the build and the Pareto fronts of the families.
 Json chart_data(const ChartConfig& config, const ChartResult& result);
 
-/// The points of the family with this name; empty if there is no such family.
-std::span<const ChartPoint> points_of(std::span<const ChartFamily> families, std::string_view name);
-
-/// Whole sentences: one for each residual that was requested, largest first. It states in how many cases each method
-/// reaches the residual, and in how many it is the fastest. If the paper's stopping rule was measured, the last line
-/// states the residuals and the errors of φ_J with this rule. The arguments are the points of the families
-/// `equilibrium` and `bias`.
-std::vector<std::string> conclusion(std::span<const ChartPoint> equilibrium, std::span<const ChartPoint> bias);
-
-/// The chart as text: a table for each family and for the atlas, the costs of the parts, and the conclusion.
+/// The chart as text: a table for each family and for the atlas, and the costs of the parts.
 std::string text_table(const ChartResult& result);
 
 }  // namespace isojam

@@ -1,17 +1,38 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <functional>
+#include <mutex>
 #include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tasks/extras/chart/config.hpp"
-#include "tasks/extras/chart/deadline.hpp"
 #include "tasks/extras/chart/point.hpp"
 #include "tasks/io/thread_clock.hpp"
 
 namespace isojam {
+
+/// Requests a stop after a given time, or when the stop token `outer` requests a stop.
+class Deadline {
+ public:
+  Deadline(double seconds, const std::stop_token& outer)
+      : on_outer_(outer, [this] { source_.request_stop(); }), timer_([this, seconds](const std::stop_token& end) {
+          std::mutex mutex;
+          std::condition_variable_any wake;
+          std::unique_lock lock(mutex);
+          wake.wait_for(lock, end, std::chrono::duration<double>(seconds), [] { return false; });
+          if (!end.stop_requested()) source_.request_stop();
+        }) {}
+  std::stop_token token() const { return source_.get_token(); }
+
+ private:
+  std::stop_source source_;
+  std::stop_callback<std::function<void()>> on_outer_;
+  std::jthread timer_;  // declared last, so that its thread ends before the members that it uses are destroyed
+};
 
 /// Settings of all measurements of a chart.
 struct Measuring {

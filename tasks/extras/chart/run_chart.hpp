@@ -3,8 +3,7 @@
 #include <functional>
 #include <stop_token>
 
-#include "tasks/extras/chart/chart_result.hpp"
-#include "tasks/extras/chart/config.hpp"
+#include "tasks/extras/chart/data.hpp"
 #include "tasks/io/console.hpp"
 
 namespace isojam {

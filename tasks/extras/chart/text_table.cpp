@@ -83,10 +83,7 @@ std::string text_table(const ChartResult& result) {
   if (result.atlas) text += atlas_text(*result.atlas);
   for (const PartCost& cost : result.costs)
     costs += fmt::format("{}{} {:.1f}", costs.empty() ? "CPU seconds: " : ", ", cost.part, cost.cpu_seconds);
-  text += costs + "\n";
-  for (const auto& line : conclusion(points_of(result.families, "equilibrium"), points_of(result.families, "bias")))
-    text += line + "\n";
-  return text;
+  return text + costs + "\n";
 }
 
 }  // namespace isojam

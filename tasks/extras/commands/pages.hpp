@@ -27,7 +27,7 @@ struct ChartArguments {
 };
 
 /// Compares methods on this machine, and writes data.json, table.txt and chart.html to the directory, which is created
-/// if it is missing. Prints the table, which ends with the conclusion, to standard output. After a signal, writes the
+/// if it is missing. Prints the table to standard output. After a signal, writes the
 /// results that have been measured so far.
 ExitCode chart(const ChartArguments& arguments, Console& console);
 

@@ -41,8 +41,6 @@ function drawFamily(family, place) {
   const data = JSON.parse(document.getElementById('data').textContent);
   const {version, git, compiler} = data.program;
   document.getElementById('origin').textContent = `isojam ${version} (git ${git}), ${compiler}, one thread.`;
-  document.getElementById('conclusion').append(...data.conclusion.map((line) =>
-    element('li', {}, ...rich(line.replaceAll('phi_J', 'φ_J')))));
   for (const family of data.families) drawFamily(family, document.getElementById('charts'));
   if (data.atlas) drawAtlas(data.atlas, document.getElementById('atlas'));
   addEventListener('beforeprint', () => document.querySelectorAll('details').forEach((part) => { part.open = true; }));

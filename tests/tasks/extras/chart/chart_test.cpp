@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <csignal>
 #include <limits>
+#include <map>
+#include <string>
+#include <thread>
 
 #include "tasks/extras/chart/data.hpp"
 #include "tasks/extras/chart/run_chart.hpp"
@@ -14,6 +19,7 @@
 namespace isojam {
 namespace {
 
+using namespace std::chrono_literals;
 using test::violations;
 
 // ---- Configuration ----------------------------------------------------------------------------------------------
@@ -54,7 +60,7 @@ TEST(ChartConfig, RejectsInvalidConfigurations) {
   }
 }
 
-// ---- Fronts, spreads, conclusions -------------------------------------------------------------------------------
+// ---- Fronts and spreads -----------------------------------------------------------------------------------------
 
 ChartPoint made_up(const std::string& task, const std::string& method, double seconds, std::optional<double> error,
                    bool failed = false) {
@@ -100,34 +106,6 @@ TEST(ChartSpread, IsOfFiniteValues) {
   EXPECT_FALSE(spread({}));
 }
 
-/// Points with a requested residual of 1e-6, and slower points with 1e-9.
-std::vector<ChartPoint> made_up_equilibrium() {
-  std::vector<ChartPoint> points{made_up("a", "newton", 2, 1e-10),     made_up("a", "newton", 1, 1e-7),
-                                 made_up("b", "newton", 3, 1e-7),      made_up("a", "lbfgs", 0.1, 1e-7),
-                                 made_up("b", "lbfgs", 9, 1e-2, true), made_up("a", "fire", 5, 1e-10),
-                                 made_up("b", "fire", 6, 1e-6)};
-  for (ChartPoint& point : points) point.setting = "residual 1e-06";
-  points.front().setting = "residual 1e-09";
-  points.push_back(made_up("a", "by energy", 0.5, 0.2));
-  points.back().setting = "energy change 1e-12";
-  return points;
-}
-
-TEST(ChartConclusion, CountsTheCasesThatEachMethodReaches) {
-  ChartPoint bias = made_up("a", "by energy", 1, 0.004);
-  bias.setting = "energy change 1e-12";
-  // Newton and FIRE reach both cases. L-BFGS is the fastest in the case that it reaches.
-  EXPECT_EQ(conclusion(made_up_equilibrium(), std::vector{bias}),
-            (std::vector<std::string>{
-                "The residual 1e-06 is reached by newton in 2 of 2 cases, as the fastest in 1; fire in 2 of 2 cases; "
-                "lbfgs in 1 of 2 cases, as the fastest in 1.",
-                "The residual 1e-09 is reached by newton in 1 of 2 cases, as the fastest in 1; fire in 1 of 2 cases; "
-                "lbfgs in 0 of 2 cases.",
-                "The paper's rule stops a minimisation at energy changes below 1e-12. It stops in 1 of 1 cases, with "
-                "residuals up to 0.2 and errors of phi_J up to 0.004."}));
-  EXPECT_EQ(conclusion({}, {}), std::vector<std::string>{"No minimiser was measured."});
-}
-
 // ---- Tables -----------------------------------------------------------------------------------------------------
 
 TEST(ChartTable, HasALetterForEveryCellOfTheAtlas) {
@@ -164,9 +142,8 @@ Json tiny_data() {
   return chart_data(tiny_config(), run_chart(tiny_config(), {}, console));
 }
 
-/// The data without times and without the statements about the fastest method.
+/// The data without times.
 Json without_times(Json data) {
-  data.erase("conclusion");
   data.erase("cpu_seconds");
   for (Json& family : data.at("families")) {
     for (Json& point : family.at("points")) {
@@ -186,7 +163,13 @@ TEST(Chart, OfEverythingConformsAndIsReproducible) {
     names.push_back(family.at("name"));
     EXPECT_EQ(family.at("ended"), "complete") << family.at("name");
     EXPECT_FALSE(family.at("points").empty()) << family.at("name");
-    for (const Json& point : family.at("points")) EXPECT_FALSE(point.at("seconds").is_null()) << point;
+    for (const Json& point : family.at("points")) {
+      EXPECT_FALSE(point.at("seconds").is_null()) << point;
+      const auto setting = point.at("setting").get<std::string>();
+      if (!setting.starts_with("residual ")) continue;
+      const bool reached = point.at("error").at("greatest").get<double>() <= std::stod(setting.substr(9));
+      EXPECT_EQ(family.at("name") == "equilibrium" && !reached, point.at("failed") == true) << point;
+    }
   }
   EXPECT_EQ(names, (std::vector<std::string>{"equilibrium", "bias", "hessian", "modes", "overlap"}));
   EXPECT_EQ(without_times(data).dump(), without_times(tiny_data()).dump());
@@ -210,6 +193,54 @@ TEST(Chart, StatesThatItsTimeWasOver) {
   const std::string text = text_table(result);
   EXPECT_NE(text.find("equilibrium (interrupted by the time limit)"), std::string::npos) << text;
   EXPECT_NE(text.find("atlas (interrupted by the time limit)"), std::string::npos) << text;
+}
+
+struct Interrupted {
+  test::Finished ended;
+  std::map<std::string, std::string> files;
+};
+
+/// Makes a chart with these comparisons and the built-in configuration, which takes minutes. Interrupts it one second
+/// after it wrote its first part. If `at_once` is true, interrupts it two seconds after the start.
+Interrupted interrupted_chart(const std::string& compared, bool at_once) {
+  const test::TemporaryDirectory directory;
+  test::write_text(directory / "config.json", "{\"compare\": " + compared + "}");
+  Interrupted result;
+  result.ended = test::isojam({"chart", "config.json", "-o", "out", "--quiet"}, directory.path(), [&](int process) {
+    for (int k = 0; k < 60000 && !at_once && !std::filesystem::exists(directory / "out/chart.html"); ++k)
+      std::this_thread::sleep_for(10ms);
+    std::this_thread::sleep_for(at_once ? 2s : 1s);
+    kill(process, SIGINT);
+  });
+  result.files = test::files_below(directory / "out");
+  return result;
+}
+
+TEST(Chart, ASignalKeepsTheMeasurements) {
+  struct Case {
+    std::string compared;
+    std::map<std::string, std::string> ends;  ///< how each family and the atlas ended
+    bool at_once = false;
+  };
+  const std::vector<Case> all{
+      {R"(["equilibrium", "hessian"])",
+       {{"equilibrium", "interrupted"}, {"bias", "interrupted"}, {"hessian", "interrupted"}},
+       true},
+      {R"(["overlap", "atlas"])", {{"overlap", "complete"}, {"atlas", "interrupted"}}},
+  };
+  for (const Case& each : all) {
+    const Interrupted found = interrupted_chart(each.compared, each.at_once);
+    EXPECT_EQ(found.ended.exit_code, 75) << each.compared << found.ended.err;
+    ASSERT_EQ(found.files.size(), 3) << each.compared;
+    const Json data = parse_json(found.files.at("data.json"), "data.json");
+    EXPECT_EQ(violations("chart_data", data), "");
+    std::map<std::string, std::string> ends;
+    for (const Json& family : data.at("families")) ends[family.at("name")] = family.at("ended");
+    if (data.contains("atlas")) ends["atlas"] = data.at("atlas").at("ended");
+    EXPECT_EQ(ends, each.ends) << each.compared;
+    EXPECT_NE(found.files.at("table.txt").find("(interrupted by a signal)"), std::string::npos);
+    EXPECT_NE(found.files.at("chart.html").find("\"ended\":\"interrupted\""), std::string::npos);
+  }
 }
 
 TEST(Chart, CommandWritesItsFiles) {
