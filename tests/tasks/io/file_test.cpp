@@ -22,15 +22,6 @@ namespace fs = std::filesystem;
 using test::files_below;
 using test::TemporaryDirectory;
 
-TEST(AtomicFile, ReplacesTheWholeContent) {
-  const TemporaryDirectory directory;
-  const auto path = directory / "f.json";
-  for (const auto& content : {std::string("first"), std::string(100000, 'x'), std::string()}) {
-    write_atomically(path, content);
-    EXPECT_EQ(files_below(directory.path()), (std::map<std::string, std::string>{{"f.json", content}}));
-  }
-}
-
 TEST(AtomicFile, AFailedWriteLeavesNothing) {
   const TemporaryDirectory directory;
   EXPECT_THROW(write_atomically(directory / "absent" / "f.json", "x"), FileError);
@@ -62,39 +53,6 @@ TEST(Output, RefusesALinkOfAnotherUserInASharedFolder) {
   ASSERT_EQ(chmod(shared.c_str(), 0755), 0);
   EXPECT_NO_THROW(write_output(link, "after"));
   EXPECT_EQ(read_text(target), "after");
-}
-
-TEST(Output, FollowsLinksAndKeepsModes) {
-  const TemporaryDirectory directory;
-  fs::create_directory(directory / "elsewhere");
-  const auto target = directory / "elsewhere/target", link = directory / "link";
-  test::write_text(target, "before");
-  ASSERT_EQ(chmod(target.c_str(), 0600), 0);
-  fs::create_symlink("elsewhere/target", link);
-  write_output(link, "after");
-  EXPECT_TRUE(fs::is_symlink(link));
-  EXPECT_EQ(read_text(target), "after");
-  EXPECT_EQ(fs::status(target).permissions(), fs::perms(0600));
-  // If the target of the link does not exist, it is created.
-  fs::remove(target);
-  write_output(link, "anew");
-  EXPECT_TRUE(fs::is_symlink(link));
-  EXPECT_EQ(read_text(target), "anew");
-  fs::create_symlink("circle", directory / "circle");
-  EXPECT_THROW(write_output(directory / "circle", "x"), FileError);
-}
-
-TEST(Output, GoesIntoAPipe) {
-  const TemporaryDirectory directory;
-  const auto pipe = directory / "pipe";
-  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  auto reader = std::async(std::launch::async, [&] { return read_text(pipe); });
-  const std::string content(200000, 'x');
-  write_output(pipe, content);
-  EXPECT_EQ(reader.get(), content);
-  EXPECT_TRUE(fs::is_fifo(pipe));
-  EXPECT_NO_THROW(write_output("/dev/null", content));
-  EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
 FileError::Reason reason_of(const std::function<void()>& work) {
@@ -130,19 +88,6 @@ TEST(ReadFile, AResultIsARegularFile) {
     EXPECT_NE(std::string(error.what()).find("huge: cannot be read: Cannot allocate memory"), std::string::npos);
   }
 #endif
-}
-
-TEST(Process, IsAliveUntilItEnds) {
-  EXPECT_EQ(is_alive(this_process()), true);
-  auto other = this_process();
-  ++other.started;
-  EXPECT_EQ(is_alive(other), false) << "of the same number, but another";
-  other.machine += "x";
-  EXPECT_EQ(is_alive(other), std::nullopt);
-  const pid_t child = fork();
-  if (child == 0) _exit(0);
-  waitpid(child, nullptr, 0);
-  EXPECT_EQ(is_alive({this_process().machine, child, 1}), false);
 }
 
 TEST(StandardStreams, PrintedTextCannotControlTheTerminal) {

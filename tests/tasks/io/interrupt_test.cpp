@@ -66,14 +66,6 @@ int deaf(const std::stop_token&) {
   return 3;
 }
 
-TEST(Interrupt, AProcessThatReactsEndsByItself) {
-  const auto listening = [](const std::stop_token& stop) {
-    while (!stop.stop_requested()) std::this_thread::sleep_for(1ms);
-    return 5;
-  };
-  EXPECT_EQ(exit_code_of(listening, 1), 5);
-}
-
 TEST(Interrupt, AProcessThatDoesNotReactIsEnded) { EXPECT_EQ(exit_code_of(deaf, 1, short_while), 75); }
 
 /// Waits forever to write a message that nobody reads, and holds stderr in the meantime.
@@ -99,10 +91,6 @@ TEST(Interrupt, AnIgnoredSignalStaysIgnored) {
       1);
   std::signal(SIGTERM, ignored);
   EXPECT_EQ(ended, 6);
-}
-
-TEST(Interrupt, WithoutASignalNothingHappens) {
-  EXPECT_EQ(exit_code_of([](const std::stop_token& stop) { return stop.stop_requested() ? 1 : 4; }, 0), 4);
 }
 
 }  // namespace

@@ -104,14 +104,6 @@ void expect_refusals(const Json& good, const std::vector<std::pair<std::string, 
   }
 }
 
-TEST(PackingJson, RejectsInvalidCells) {
-  const auto good = to_json(in_other_cells().front());
-  const std::vector<std::pair<std::string, Json>> wrong{
-      {"/cell", "cube"},      {"/cell", {{1, 0, 0}, {0, 1, 0}}}, {"/cell/1", {0, 0, 0}}, {"/cell/0", {.5, 0, 0}},
-      {"/cell/2/1", nullptr}, {"/cell_low", Json::array()},      {"/cell_low/0/0", "x"}};
-  expect_refusals(good, wrong);
-}
-
 TEST(PackingJson, RejectsInvalidPackings) {
   const auto good = to_json(made_up_packing());
   const std::vector<std::pair<std::string, Json>> wrong{{"/solid", "sphere"},         {"/side", 0.5},

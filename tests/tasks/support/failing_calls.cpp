@@ -1,8 +1,7 @@
 // This library is preloaded into a process. It lets the system calls fail that ISOJAM_FAIL names. "read 7 5" sets errno
 // to 5 (EIO) in the seventh read; "read 7+ 5" does so in the seventh and all later ones. With "count" instead of a
-// number, no call fails, and the number of calls is printed at the end. "open count 0 records/a.json" counts the opened
-// paths that end in this way. Several orders are separated by ";". Calls: malloc, open, read, write, fsync, syncdir
-// (fsync of a directory), rename, renameat2, link, thread.
+// number, no call fails, and the number of calls is printed at the end. Several orders are separated by ";". Calls:
+// malloc, open, read, write, fsync, syncdir (fsync of a directory), rename, renameat2, link, thread.
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -25,13 +24,12 @@ struct Order {
   long first = 0;
   bool ever_after = false, count = false;
   int error = 0;
-  char path[256] = "";  ///< end of the paths that count; empty for all paths
 };
 
 Order read_order(const char* text) {
   Order order;
   char which[24] = "";
-  std::sscanf(text, "%15s %23s %d %255s", order.call, which, &order.error, order.path);
+  std::sscanf(text, "%15s %23s %d", order.call, which, &order.error);
   order.count = std::strcmp(which, "count") == 0;
   order.first = std::atol(which);
   order.ever_after = std::strchr(which, '+') != nullptr;
@@ -72,11 +70,6 @@ bool fails(const char* call) {
   return false;
 }
 
-bool is_counted(const char* path) {
-  const auto size = std::strlen(path), end = std::strlen(orders()[0].path);
-  return size >= end && std::strcmp(path + size - end, orders()[0].path) == 0;
-}
-
 bool is_directory(int fd) {
   struct stat status {};
   return ::fstat(fd, &status) == 0 && S_ISDIR(status.st_mode);
@@ -104,7 +97,7 @@ void* malloc(std::size_t size) { return fails("malloc") ? nullptr : __libc_mallo
 
 static int opened(const char* path, int flags, mode_t mode) {
   static const auto real = next<int (*)(const char*, int, ...)>("open");
-  return is_counted(path) && fails("open") ? -1 : real(path, flags, mode);
+  return fails("open") ? -1 : real(path, flags, mode);
 }
 int open(const char* path, int flags, ...) {
   va_list rest;
