@@ -6,6 +6,7 @@
 
 #include "tasks/manifest/plan.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
+#include "tests/tasks/support/support.hpp"
 
 namespace isojam {
 namespace {
@@ -21,15 +22,6 @@ Manifest parsed(const Json& manifest) { return parse_manifest(manifest.dump(), "
 
 double limit_of(const Manifest& manifest, std::size_t point) {
   return Plan(manifest).at(point, 0).options.compression.max_density;
-}
-
-std::string refusal(const Json& manifest) {
-  try {
-    parsed(manifest);
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
 }
 
 TEST(BySolid, ReachesOnlyItsSolid) {
@@ -125,18 +117,21 @@ TEST(BySolid, TetrahedraAreRelaxedWithMoreEvaluations) {
 TEST(BySolid, RefusesWhatHasNoMeaning) {
   const auto by_solid = [](const Json& values) { return manifest_of({"octahedron"}, {{"by_solid", values}}); };
   const Json limit{{"max_density", 1.05}};
-  EXPECT_NE(refusal(by_solid({{"octahedrons", limit}})).find("did you mean \"octahedron\""), std::string::npos);
-  EXPECT_NE(refusal(by_solid({{"cube", limit}})).find("/cube: cube is not in /sweep/solid; add it there, or remove"),
+  EXPECT_NE(test::refusal(by_solid({{"octahedrons", limit}})).find("did you mean \"octahedron\""), std::string::npos);
+  EXPECT_NE(
+      test::refusal(by_solid({{"cube", limit}})).find("/cube: cube is not in /sweep/solid; add it there, or remove"),
+      std::string::npos);
+  EXPECT_NE(test::refusal(by_solid({{"octahedron", {{"max_densty", 1}}}})).find("did you mean \"max_density\""),
             std::string::npos);
-  EXPECT_NE(refusal(by_solid({{"octahedron", {{"max_densty", 1}}}})).find("did you mean \"max_density\""),
-            std::string::npos);
-  EXPECT_NE(refusal(by_solid({{"octahedron", {{"max_density", 3}}}})).find("/protocol/by_solid/octahedron/max_density"),
-            std::string::npos);
-  EXPECT_NE(refusal(by_solid({{"octahedron", {{"max_density", 0.04}}}})).find("initial_density 0.05 is not below"),
-            std::string::npos);
+  EXPECT_NE(
+      test::refusal(by_solid({{"octahedron", {{"max_density", 3}}}})).find("/protocol/by_solid/octahedron/max_density"),
+      std::string::npos);
+  EXPECT_NE(
+      test::refusal(by_solid({{"octahedron", {{"max_density", 0.04}}}})).find("initial_density 0.05 is not below"),
+      std::string::npos);
   auto swept = by_solid({{"octahedron", limit}});
   swept["sweep"]["max_density"] = {0.9, 0.93};
-  EXPECT_NE(refusal(swept).find("the parameter is also swept"), std::string::npos);
+  EXPECT_NE(test::refusal(swept).find("the parameter is also swept"), std::string::npos);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 
 /// CPU times of recorded replicates: for each manifest, a list of objects with the solid, the number of particles, the
 /// swept parameters, the number of replicates, and the sum of their times.
-const std::string measured_file = ISOJAM_SOURCE_DIR "/tests/tasks/manifest/measured_costs.json";
+const std::string measured_file = ISOJAM_SOURCE_DIR "/tests/tasks/manifest/data/measured_costs.json";
 
 double estimated_seconds(const Plan& plan, const Json& measured) {
   for (std::size_t point = 0; point < plan.points(); ++point) {

@@ -84,25 +84,6 @@ TEST(Plan, NamesAreFileNamesAndLeadBack) {
   }
 }
 
-TEST(Plan, AReplicateDrawsTheSameBitsInEverySweep) {
-  std::map<std::string, std::vector<std::uint64_t>> in_large;
-  for (const auto& spec : plan_of(large_sweep())) in_large[replicate_name(spec)] = first_bits(spec);
-
-  auto small = large_sweep();
-  small["sweep"]["solid"] = {"octahedron"};
-  small["sweep"]["particles"] = {100};
-  small["sweep"]["target_energy"] = {1e-6};
-  small["sweep"]["method"] = {"newton"};
-  small["protocol"]["max_steps"] = 17;
-  small["replicates"] = 2;
-  const auto plan = plan_of(small);
-  ASSERT_EQ(plan.size(), 2U);
-  for (const auto& spec : plan) {
-    ASSERT_TRUE(in_large.contains(replicate_name(spec))) << replicate_name(spec);
-    EXPECT_EQ(in_large.at(replicate_name(spec)), first_bits(spec)) << replicate_name(spec);
-  }
-}
-
 /// The parts of a specification that determine the random numbers.
 using Origin = std::tuple<std::uint64_t, Mixture, int, int>;
 Origin origin_of(const ReplicateSpec& spec) { return {spec.seed, spec.solid, spec.particles, spec.replicate}; }
@@ -162,23 +143,6 @@ TEST(Plan, ReplicatesOfOneNumberHaveTheSameInitialConfiguration) {
       }
     }
   }
-}
-
-TEST(Plan, InitialConfigurationsOfOtherOriginsDiffer) {
-  auto manifest = test::good_manifest();
-  manifest["sweep"]["solid"] = {"dodecahedron", "octahedron"};
-  manifest["sweep"]["particles"] = {64, 65};
-  manifest["sweep"]["residual"] = {1e-6, 1e-5};
-  std::map<std::vector<double>, Origin> seen;
-  for (const int seed : {7, 8}) {
-    manifest["seed"] = seed;
-    for (const auto& spec : plan_of(manifest)) {
-      const Eigen::Vector4d turn = start_of(spec).poses.front().orientation.coeffs();
-      const auto [place, added] = seen.try_emplace({turn.data(), turn.data() + 4}, origin_of(spec));
-      EXPECT_EQ(place->second, origin_of(spec));
-    }
-  }
-  EXPECT_EQ(seen.size(), 2U * 2 * 2 * 2);
 }
 
 /// The first random bits of replicates in a sweep over solids and N only. They must not change between versions.

@@ -21,16 +21,6 @@ TEST(Shard, ReadsIOfN) {
     EXPECT_FALSE(parse_shard(wrong)) << wrong;
 }
 
-TEST(Shard, ShardsDivideAPlan) {
-  for (const int count : {1, 2, 3, 7, 40}) {
-    for (std::size_t item = 0; item < 100; ++item) {
-      int takers = 0;
-      for (int index = 0; index < count; ++index) takers += Shard{index, count}.takes(item);
-      EXPECT_EQ(takers, 1) << count << " shards, item " << item;
-    }
-  }
-}
-
 class Environment {
  public:
   explicit Environment(const std::map<std::string, std::string>& values) : values_(values) {

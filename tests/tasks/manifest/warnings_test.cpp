@@ -102,6 +102,8 @@ TEST(Warnings, KeysWithoutEffect) {
   EXPECT_EQ(warned({{"modes", 20}, {"measure", {"backbone"}}}), Lines{});
   EXPECT_EQ(warned({{"exclude", {"not_stable"}}, {"measure", {"contacts"}}}), Lines{"/exclude"});
   EXPECT_EQ(warned({{"exclude", {"not_stable"}}, {"measure", {"modes"}}}), Lines{});
+  const Json cohesion{{"range", 0.2}, {"until", "end"}};
+  EXPECT_EQ(of_protocol({{"cohesion", cohesion}}), (Lines{"/protocol/cohesion/range", "/protocol/cohesion/until"}));
   const Json box{{"brick", {{"box", {1, 1, 2}}}}};
   EXPECT_EQ(warned({{"solids", box}}), Lines{"/solids/brick"});
   EXPECT_EQ(warned({{"solids", box}, {"sweep", {{"solid", {"brick"}}}}}), Lines{});
