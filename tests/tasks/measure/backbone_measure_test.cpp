@@ -4,20 +4,13 @@
 #include "engine/solve/factor/dense.hpp"
 #include "engine/vibration/backbone.hpp"
 #include "tasks/measure/measure.hpp"
+#include "tests/tasks/support/packings.hpp"
 
 namespace isojam {
 namespace {
 
 const JamResult& jammed() {
-  static const JamResult result = [] {
-    RandomStream random{17};
-    JamOptions options;
-    options.compression.step = 0.05;
-    options.decompression.final_distance = 0.01;
-    options.minimise.residual = 1e-9;
-    const ConvexSolid& solid = platonic(SolidKind::octahedron);
-    return jam(random_packing(solid, least_particles(solid, options.compression.max_density), 0.2, random), options);
-  }();
+  static const JamResult result = test::jammed_octahedra(1e-9);
   return result;
 }
 

@@ -67,7 +67,8 @@ TEST(CohesionMeasure, RecordsTheDensityAtZeroPressure) {
 TEST(CohesionMeasure, IsTheSameFromTheRecord) {
   const auto& outcome = outcome_of(1e-4);
   const Json record = test::record_on_disk(outcome);
-  const JamResult again = restored_jam(read_record_document(record, "record.json"), outcome.jam.states, outcome.spec, "record.json");
+  const JamResult again =
+      restored_jam(read_record_document(record, "record.json"), outcome.jam.states, outcome.spec, "record.json");
   EXPECT_EQ(again.status, JamStatus::zero_pressure);
   for (const auto what : outcome.spec.measures)
     EXPECT_EQ(measure(what, again, measure_options(outcome.spec)).states, outcome.measured.at(what).states);
@@ -91,23 +92,14 @@ TEST(CohesionMeasure, MarksContactsUnderTension) {
               1e-15);
 }
 
-TEST(CohesionMeasure, IsAbsentWithoutCohesion) {
-  const auto& outcome = outcome_of(0);
-  ASSERT_FALSE(outcome.failure) << outcome.failure->why;
-  const Json record = test::record_on_disk(outcome);
-  EXPECT_EQ(test::violations("record", record), "");
-  EXPECT_FALSE(record.contains("phi_0"));
-  for (const char* key : {"Z_grown", "tension", "under_tension"})
-    EXPECT_FALSE(record.at("states").at(0).at("contacts").contains(key)) << key;
-}
-
 TEST(CohesionMeasure, RecordsCycles) {
   const auto& outcome = outcome_of(0);
   ASSERT_EQ(outcome.jam.cycles.size(), 2U);
   const Json record = test::record_on_disk(outcome);
   EXPECT_EQ(record.at("cycles").size(), 2U);
   EXPECT_EQ(record.at("spec").at("protocol").at("cycles"), 2);
-  const JamResult again = restored_jam(read_record_document(record, "record.json"), outcome.jam.states, outcome.spec, "record.json");
+  const JamResult again =
+      restored_jam(read_record_document(record, "record.json"), outcome.jam.states, outcome.spec, "record.json");
   ASSERT_EQ(again.cycles.size(), 2U);
   PackingEnergy energy;
   for (std::size_t k = 0; k < 2; ++k) {

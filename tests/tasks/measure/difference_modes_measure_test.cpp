@@ -3,22 +3,10 @@
 #include "engine/solve/factor/dense.hpp"
 #include "engine/vibration/dynamical_matrix.hpp"
 #include "tasks/measure/measure.hpp"
+#include "tests/tasks/support/packings.hpp"
 
 namespace isojam {
 namespace {
-
-JamResult result_of(const Packing& packing) {
-  const Evaluation here = PackingEnergy().evaluate(packing);
-  JamResult result;
-  JamStep step;
-  step.density = packing.density();
-  step.energy_per_particle = here.energy / packing.size();
-  step.pressure = here.pressure;
-  result.path = {step};
-  result.states = {packing};
-  result.state_steps = {0};
-  return result;
-}
 
 /// Octahedra with equal orientations on a cubic lattice: in equilibrium by symmetry, and unstable.
 Packing lattice(int side, double density) {
@@ -38,7 +26,7 @@ TEST(DifferenceModesMeasure, CountsAsADenseSolverDoes) {
   const Packing drawn = random_packing(solid, least_particles(solid, 0.8), 0.8, random);
   long unstable = 0;
   for (const Packing& packing : {lattice(3, 0.3), drawn}) {
-    const auto found = measure(Measure::difference_modes, result_of(packing)).states[0].at("difference_modes");
+    const auto found = measure(Measure::difference_modes, test::single_state(packing)).states[0].at("difference_modes");
     const auto tolerance = found.at("tolerance").get<double>();
     const double modes = 6 * packing.size();
     const auto expect_count = [&](const Json& counted, const Eigen::MatrixXd& matrix) {
@@ -63,14 +51,9 @@ TEST(DifferenceModesMeasure, CountsAsADenseSolverDoes) {
   EXPECT_GT(unstable, 0);
 }
 
-TEST(DifferenceModesMeasure, UsesStatesWithoutRelaxation) {
-  EXPECT_FALSE(definition_of(Measure::difference_modes).needs_minima);
-  EXPECT_TRUE(definition_of(Measure::modes).needs_minima);
-  EXPECT_TRUE(definition_of(Measure::backbone).needs_minima);
-}
-
 TEST(DifferenceModesMeasure, TooManyParticlesHaveNoValue) {
-  const auto found = measure(Measure::difference_modes, result_of(lattice(8, 0.3))).states[0].at("difference_modes");
+  const auto found =
+      measure(Measure::difference_modes, test::single_state(lattice(8, 0.3))).states[0].at("difference_modes");
   for (const auto* key : {"exact", "h4", "h6", "h8"}) {
     EXPECT_TRUE(found.at(key).at("share").is_null()) << key;
     EXPECT_EQ(found.at(key).at("share_reason"), "more than 400 particles");

@@ -9,21 +9,10 @@
 #include "engine/analysis/pair_distribution.hpp"
 #include "tasks/measure/measure.hpp"
 #include "tasks/measure/shared_parts.hpp"
+#include "tests/tasks/support/packings.hpp"
 
 namespace isojam {
 namespace {
-
-JamResult result_of(const Packing& packing) {
-  const Evaluation here = PackingEnergy().evaluate(packing);
-  JamResult result;
-  JamStep step;
-  step.density = packing.density();
-  step.energy_per_particle = here.energy / packing.size();
-  result.path = {step};
-  result.states = {packing};
-  result.state_steps = {0};
-  return result;
-}
 
 /// A random packing of octahedra whose kinds are those of `kinds`.
 Packing packing_of(const std::vector<int>& kinds, std::uint64_t seed = 7) {
@@ -34,7 +23,7 @@ Packing packing_of(const std::vector<int>& kinds, std::uint64_t seed = 7) {
 }
 
 Json contacts_of(const Packing& packing) {
-  const auto state = measure(Measure::contacts, result_of(packing)).states.at(0);
+  const auto state = measure(Measure::contacts, test::single_state(packing)).states.at(0);
   EXPECT_NO_THROW(definition_of(Measure::contacts).state.check({state, "state"}));
   return state.at("contacts");
 }
@@ -89,16 +78,9 @@ TEST(DistributionsMeasure, MixingDistinguishesRandomAndSeparatedKinds) {
   EXPECT_LT(contacts_of(apart).at("mixing").get<double>(), 0.8);
 }
 
-TEST(DistributionsMeasure, HistogramCountsSmallAndLargeValues) {
-  Histogram zeros(-20, 21);
-  for (const double angle : {0.0, 1e-5, 1.0, 5.0}) zeros.add(angle);
-  EXPECT_EQ(zeros.below, 2);
-  EXPECT_EQ(zeros.counts.back(), 2);
-}
-
 TEST(DistributionsMeasure, ForcesAreInUnitsOfTheirMean) {
   const auto packing = packing_of(std::vector<int>(60, 0));
-  const auto json = measure(Measure::gaps, result_of(packing)).states.at(0).at("gaps");
+  const auto json = measure(Measure::gaps, test::single_state(packing)).states.at(0).at("gaps");
   std::vector<double> forces;
   for (const auto& force : contact_forces(packing, PackingEnergy().contacts(packing)))
     forces.push_back(force.force_a.norm());
@@ -126,7 +108,7 @@ TEST(DistributionsMeasure, ForcesAreInUnitsOfTheirMean) {
 
 TEST(DistributionsMeasure, PairDistributionIsThatOfTheEngine) {
   const auto packing = packing_of(std::vector<int>(60, 0));
-  const auto json = measure(Measure::gaps, result_of(packing)).states.at(0).at("gaps");
+  const auto json = measure(Measure::gaps, test::single_state(packing)).states.at(0).at("gaps");
   const auto r = json.at("r").get<std::vector<double>>(), g = json.at("g").get<std::vector<double>>();
   const auto expected = pair_distribution(packing, 0.1, 5);
   ASSERT_EQ(g.size(), expected.size());

@@ -14,6 +14,7 @@
 #include "tasks/io/input_error.hpp"
 #include "tasks/measure/recorded_measurement.hpp"
 #include "tasks/measure/trough_parts.hpp"
+#include "tests/tasks/support/packings.hpp"
 #include "tests/tasks/support/schema.hpp"
 #include "tests/tasks/support/support.hpp"
 
@@ -33,14 +34,7 @@ Outcome measured_outcome(const JamResult& jam, std::span<const Measure> measures
 }
 
 const JamResult& jammed() {
-  static const JamResult result = [] {
-    RandomStream random{17};
-    JamOptions options;
-    options.compression.step = 0.05;
-    options.decompression.final_distance = 0.01;
-    const ConvexSolid& solid = platonic(SolidKind::octahedron);
-    return jam(random_packing(solid, least_particles(solid, options.compression.max_density), 0.2, random), options);
-  }();
+  static const JamResult result = test::jammed_octahedra(MinimiseOptions{}.residual);
   return result;
 }
 
@@ -139,23 +133,6 @@ TEST(Measure, FillsTheRecordOfAJammedPacking) {
   }
 }
 
-TEST(Measure, CountsModesAsADenseSolverDoes) {
-  const auto record = test::record_on_disk(measured_outcome(jammed()));
-  PackingEnergy energy;
-  for (std::size_t k = 0; k < jammed().states.size(); ++k) {
-    const auto precision = jammed().path[static_cast<std::size_t>(jammed().state_steps[k])].summary.precision;
-    const Eigen::MatrixXd hessian = dense_matrix(energy.hessian(jammed().states[k], precision));
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(hessian, Eigen::EigenvaluesOnly);
-    const auto lambda = solver.eigenvalues().array();
-    const auto& modes = record.at("states").at(k).at("modes");
-    const auto tolerance = modes.at("zero_tolerance").get<double>();
-    EXPECT_EQ(modes.at("negative"), (lambda < -tolerance).count()) << "state " << k;
-    EXPECT_EQ(modes.at("zero"), (lambda.abs() <= tolerance).count()) << "state " << k;
-    EXPECT_EQ(modes.at("positive"), (lambda > tolerance).count()) << "state " << k;
-    EXPECT_NEAR(modes.at("lambda_max").get<double>(), lambda.maxCoeff(), 1e-8 * lambda.maxCoeff()) << "state " << k;
-  }
-}
-
 /// Checks the numbers in the record for the rows of `matrix`, from contacts with so many constraints.
 void expect_counted(const Json& counted, const RigidityMatrix& matrix, int constraints, double per_particle) {
   const auto coordinates = static_cast<int>(matrix.rows.cols());
@@ -227,17 +204,6 @@ TEST(Measure, ConstraintNumberIsThatOfMissingAndRedundantConstraints) {
     by_fit += !contacts.at("C").is_null();
   }
   EXPECT_GT(by_fit, 0);
-  // The identity holds for any cut-offs.
-  const Packing& packing = jammed().states.back();
-  const auto contacts = PackingEnergy().contacts(packing);
-  const auto angles = alignments(packing.solids.only(), contacts);
-  for (const double cutoff : {1e-5, 1e-4, 1e-3, 1e-2, 1e-1}) {
-    const auto classes = classify(angles, 1e-3, cutoff);
-    const auto rigidity = analyse_rigidity(class_constraints(packing, contacts, angles, classes));
-    const Json counted{{"floppy", rigidity.floppy}, {"self_stress", rigidity.self_stress}};
-    const double C = contact_numbers(packing.size(), classes).C;
-    EXPECT_NEAR(violation_of_identity(counted, C, packing.size()), 0, 1e-12) << cutoff;
-  }
 }
 
 TEST(Measure, RecordsTheHistogramOfAnglesAndItsTroughs) {
@@ -266,32 +232,6 @@ TEST(Measure, RecordsTheHistogramOfAnglesAndItsTroughs) {
     EXPECT_DOUBLE_EQ(trough.at("C_low").get<double>(), C_with("low"));
     EXPECT_DOUBLE_EQ(trough.at("C_high").get<double>(), C_with("high"));
   }
-}
-
-TEST(Measure, GivesTheSameBitsTwice) {
-  for (const auto what : all_measures) {
-    const auto once = measure(what, jammed()), again = measure(what, jammed());
-    EXPECT_EQ(Json(once.states).dump(), Json(again.states).dump()) << to_string(what);
-    EXPECT_EQ(once.replicate.dump(), again.replicate.dump()) << to_string(what);
-    EXPECT_EQ(once.flags, again.flags) << to_string(what);
-  }
-}
-
-/// A result with one state, the packing as it is.
-JamResult result_of(const Packing& packing) {
-  const Evaluation here = PackingEnergy().evaluate(packing);
-  JamResult result;
-  JamStep step;
-  step.stage = JamStage::decompression;
-  step.density = packing.density();
-  step.energy_per_particle = here.energy / packing.size();
-  step.pressure = here.pressure;
-  step.summary.reason = StopReason::residual_reached;
-  result.path = {step};
-  result.states = {packing};
-  result.state_steps = {0};
-  result.status = JamStatus::not_jammed;
-  return result;
 }
 
 /// `n` solids in a row along x, `spacing` apart, in a cell of side `side`.
@@ -328,7 +268,8 @@ TEST(Measure, DegenerateStatesHaveValuesOrReasons) {
   std::erase(fast, Measure::difference_modes);
   for (const auto& [name, packing] : cases) {
     const bool is_crystal = name == cases.back().first;
-    auto outcome = is_crystal ? measured_outcome(result_of(packing), fast) : measured_outcome(result_of(packing));
+    auto outcome = is_crystal ? measured_outcome(test::single_state(packing), fast)
+                              : measured_outcome(test::single_state(packing));
     outcome.failure = Failure{"jam", "made up"};
     const auto record = test::record_on_disk(outcome);
     SCOPED_TRACE(name);

@@ -39,14 +39,5 @@ TEST(Quantities, BelongToTheirMeasures) {
   EXPECT_FALSE(quantity_index("phi_K"));
 }
 
-TEST(Quantities, GroupsAreContiguous) {
-  std::vector<std::string_view> groups;
-  for (const auto& quantity : all_quantities()) {
-    if (groups.empty() || groups.back() != quantity.group.name) groups.push_back(quantity.group.name);
-  }
-  EXPECT_EQ(groups.front(), main_group.name);
-  EXPECT_EQ(std::set(groups.begin(), groups.end()).size(), groups.size()) << ::testing::PrintToString(groups);
-}
-
 }  // namespace
 }  // namespace isojam

@@ -4,21 +4,10 @@
 
 #include "engine/analysis/alignment/random_alignment.hpp"
 #include "tasks/measure/measure.hpp"
+#include "tests/tasks/support/packings.hpp"
 
 namespace isojam {
 namespace {
-
-JamResult result_of(const Packing& packing) {
-  const Evaluation here = PackingEnergy().evaluate(packing);
-  JamResult result;
-  JamStep step;
-  step.density = packing.density();
-  step.energy_per_particle = here.energy / packing.size();
-  result.path = {step};
-  result.states = {packing};
-  result.state_steps = {0};
-  return result;
-}
 
 /// Shares of random contacts whose angles are smaller, as a slow sum over the ends of all contacts.
 std::pair<double, double> random_share(const Packing& packing, double face_face, double edge_face) {
@@ -55,7 +44,7 @@ TEST(RandomContactsMeasure, RangeNearZeroIsThatOfTheSolids) {
   }
   for (const auto& particles : {one, sizes, shapes}) {
     const Packing packing = packing_of(particles);
-    const auto angles = measure(Measure::contacts, result_of(packing)).states[0].at("contacts").at("angles");
+    const auto angles = measure(Measure::contacts, test::single_state(packing)).states[0].at("contacts").at("angles");
     const auto &face_face = angles.at("face_face_random"), &edge_face = angles.at("edge_face_random");
     const auto [share_ff, share_ef] = random_share(packing, face_face.at("angle"), edge_face.at("angle"));
     EXPECT_NEAR(share_ff, 0.1, 2e-4);

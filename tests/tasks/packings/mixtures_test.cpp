@@ -33,15 +33,6 @@ const Json by_law = mixture(
 
 Manifest parse(const Json& manifest) { return parse_manifest(manifest.dump(), "m.json"); }
 
-std::string refused(const Json& manifest) {
-  try {
-    parse(manifest);
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
-
 TEST(Mixtures, AreEntriesOfASweep) {
   auto json = swept({"cube", two_sizes, two_shapes, by_law});
   json["solids"] = {{"brick", {{"box", {1, 1.5, 2}}}}};
@@ -64,7 +55,7 @@ TEST(Mixtures, AreEntriesOfASweep) {
 }
 
 TEST(Mixtures, InvalidMixturesAreRejectedAtTheirPlace) {
-  const auto said = [](const Json& entry, int particles = 300) { return refused(swept({entry}, particles)); };
+  const auto said = [](const Json& entry, int particles = 300) { return test::refusal(swept({entry}, particles)); };
   const auto expect = [&](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << "wanted: " << part << "\nsaid: " << text;
   };
@@ -90,10 +81,10 @@ TEST(Mixtures, InvalidMixturesAreRejectedAtTheirPlace) {
   auto named = two_sizes;
   named["name"] = "cube";
   expect(said(named), "/sweep/solid/0/name");
-  expect(refused(swept({two_sizes, two_sizes})), "/sweep/solid");
+  expect(test::refusal(swept({two_sizes, two_sizes})), "/sweep/solid");
   auto one = two_sizes, other = two_shapes;
   one["name"] = other["name"] = "twice";
-  expect(refused(swept({one, other})), "two entries have the name twice");
+  expect(test::refusal(swept({one, other})), "two entries have the name twice");
 }
 
 TEST(Mixtures, PackingsAreReadWithTheSameBits) {

@@ -29,15 +29,6 @@ Manifest parse(const Json& solid, const std::string& file = "m.json") {
   return parse_manifest(swept(solid).dump(), file);
 }
 
-std::string refused(const Json& solid) {
-  try {
-    parse_manifest(swept(solid).dump(), "m.json");
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
-
 /// The warnings about solids.
 std::vector<std::string> warned(const Manifest& manifest) {
   auto all = warnings_of(manifest);
@@ -119,7 +110,7 @@ TEST(SolidRepairs, AreMadeOnRequestOnly) {
   for (const auto& p : cube().points) points.push_back({p.x(), p.y(), p.z()});
   auto more = points;
   more.push_back({.1, 0, 0});
-  expect_part(refused({{"vertices", more}}), "/solids/mine/vertices/8: ");
+  expect_part(refusal(swept({{"vertices", more}})), "/solids/mine/vertices/8: ");
   const auto hull = parse({{"vertices", more}, {"hull", true}});
   EXPECT_EQ(features(hull), (std::array<std::size_t, 3>{6, 12, 8}));
   EXPECT_EQ(hull.definitions.at("mine").report.dropped, 1);
@@ -136,17 +127,6 @@ TEST(SolidRepairs, AreMadeOnRequestOnly) {
   EXPECT_EQ(features(fewer)[2], 6U);
   EXPECT_EQ(fewer.definitions.at("mine").report.removed_corners, 2);
   EXPECT_LT(fewer.definitions.at("mine").report.volume_change, -.1);
-}
-
-TEST(SolidRepairs, OtherValuesAreRefusedAtTheirPlace) {
-  const auto vertices = dodecahedron(exact);
-  expect_part(refused({{"box", {1, 1, 1}}, {"merge", 1e-5}}), "/solids/mine/merge: a box needs no repair");
-  expect_part(refused({{"vertices", vertices}, {"merge", 0}}), "/solids/mine/merge: ");
-  expect_part(refused({{"vertices", vertices}, {"merge", .2}}), "/solids/mine/merge: ");
-  expect_part(refused({{"vertices", vertices}, {"hull", 1}}), "/solids/mine/hull: ");
-  expect_part(refused({{"vertices", vertices}, {"corners", 3}}), "/solids/mine/corners: ");
-  expect_part(refused({{"vertices", vertices}, {"weld", true}}), "/solids/mine/weld: ");
-  expect_part(refused({{"merge", 1e-5}}), "/solids/mine: the solid needs exactly one definition");
 }
 
 TEST(SolidRepairs, AreReportedByValidateAndByTheDryRun) {
@@ -170,21 +150,6 @@ TEST(SolidRepairs, AreReportedByValidateAndByTheDryRun) {
     expect_part(done.out, "unused: 12 faces, 30 edges, 20 vertices; volume 14.4721");
     expect_part(done.out, "faces joined to larger faces; largest move of a corner ");
   }
-}
-
-TEST(SolidRepairs, OfAFileAreTheSame) {
-  const TemporaryDirectory directory;
-  Sample rounded{{}, {}};
-  for (const auto& v : dodecahedron(exact)) rounded.points.emplace_back(v[0], v[1], v[2]);
-  const auto exact_solid = Solid::made_of("d", rounded.points);
-  for (const auto& face : exact_solid->faces()) rounded.faces.push_back(face.vertices);
-  write_text(directory / "d.stl", binary_stl(triangles(rounded)));
-  const auto path = (directory / "m.json").string();
-  const auto warnings = warned(parse({{"file", "d.stl"}}, path));
-  ASSERT_EQ(warnings.size(), 1U);
-  const auto merged = parse({{"file", "d.stl"}, {"merge", proposed(warnings[0])}}, path);
-  EXPECT_EQ(features(merged), published);
-  EXPECT_TRUE(warned(merged).empty());
 }
 
 }  // namespace

@@ -1,14 +1,12 @@
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 
 #include "tasks/io/input_error.hpp"
 #include "tasks/manifest/manifest.hpp"
 #include "tasks/manifest/plan.hpp"
-#include "tasks/packings/packing_json.hpp"
+#include "tests/tasks/packings/meshes.hpp"
 #include "tests/tasks/support/support.hpp"
 
 namespace isojam {
@@ -97,14 +95,6 @@ TEST(SolidDefinitions, TooManyFeaturesAreRejected) {
   EXPECT_NE(all.find("set \"corners\" to 66"), std::string::npos) << all;
 }
 
-TEST(SolidDefinitions, NeedParticlesForTheirOwnSize) {
-  auto manifest = swept({{"stick", {{"box", {1, 1, 8}}}}}, {"stick"});
-  manifest["sweep"]["particles"] = {24};
-  std::string all;
-  EXPECT_EQ(refused(manifest, &all), std::vector<std::string>{"/sweep/particles/0"});
-  EXPECT_NE(all.find("stick"), std::string::npos) << all;
-}
-
 TEST(SolidDefinitions, CanonicalFormContainsTheVertices) {
   const Json solids{{"brick", {{"box", {1, 1.5, 2}}}}, {"unused", {{"box", {1, 1, 3}}}}};
   const auto manifest = parse(swept(solids, {"brick", "cube"}));
@@ -118,48 +108,14 @@ TEST(SolidDefinitions, CanonicalFormContainsTheVertices) {
   EXPECT_FALSE(to_json(parse(swept(nullptr, {"cube"}))).contains("solids")) << "manifests of old keep their digests";
 }
 
-/// A box of 1 × 2 × 3 made of 12 triangles.
-std::vector<std::array<Vector3d, 3>> box_triangles() {
-  const auto corner = [](int k) { return Vector3d(k & 1 ? 1 : 0, k & 2 ? 2 : 0, k & 4 ? 3 : 0); };
-  const int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-  std::vector<std::array<Vector3d, 3>> triangles;
-  for (const auto& q : quads) {
-    triangles.push_back({corner(q[0]), corner(q[1]), corner(q[2])});
-    triangles.push_back({corner(q[0]), corner(q[2]), corner(q[3])});
-  }
-  return triangles;
+/// A box of 1 × 2 × 3.
+test::Sample box() {
+  auto sample = test::cube();
+  for (auto& p : sample.points) p = (p + Vector3d::Constant(.5)).cwiseProduct(Vector3d(1, 2, 3));
+  return sample;
 }
 
-std::string text_stl() {
-  std::string text = "solid box of three edges\n";
-  for (const auto& triangle : box_triangles()) {
-    text += " facet normal 0 0 0\n  outer loop\n";
-    for (const auto& v : triangle) text += fmt::format("   vertex {:.6e} {:.6e} {:.6e}\n", v.x(), v.y(), v.z());
-    text += "  endloop\n endfacet\n";
-  }
-  return text + "endsolid\n";
-}
-
-std::string binary_stl() {
-  std::string bytes = "solid as binary files may begin too";
-  bytes.resize(80, ' ');
-  const auto put = [&](const auto& value) {
-    char raw[sizeof value];
-    std::memcpy(raw, &value, sizeof value);
-    bytes.append(raw, sizeof value);
-  };
-  put(static_cast<std::uint32_t>(box_triangles().size()));
-  for (const auto& triangle : box_triangles()) {
-    for (int c = 0; c < 3; ++c) put(0.0F);
-    for (const auto& v : triangle) {
-      for (int c = 0; c < 3; ++c) put(static_cast<float>(v[c]));
-    }
-    put(std::uint16_t{0});
-  }
-  return bytes;
-}
-
-constexpr const char* off = R"(OFF # a box
+constexpr const char* commented_off = R"(OFF # a box
 8 6 12
 0 0 0
 1 0 0
@@ -180,9 +136,9 @@ constexpr const char* off = R"(OFF # a box
 TEST(SolidFiles, AreRelativeToTheManifest) {
   const test::TemporaryDirectory directory;
   std::filesystem::create_directory(directory / "shapes");
-  test::write_text(directory / "shapes" / "a.off", off);
-  test::write_text(directory / "shapes" / "b.stl", text_stl());
-  test::write_text(directory / "shapes" / "c.stl", binary_stl());
+  test::write_text(directory / "shapes" / "a.off", commented_off);
+  test::write_text(directory / "shapes" / "b.stl", test::text_stl(test::triangles(box())));
+  test::write_text(directory / "shapes" / "c.stl", test::binary_stl(test::triangles(box())));
   const Json solids{{"a", {{"file", "shapes/a.off"}}},
                     {"b", {{"file", "shapes/b.stl"}}},
                     {"c", {{"file", "shapes/c.stl"}}},
@@ -194,43 +150,6 @@ TEST(SolidFiles, AreRelativeToTheManifest) {
     EXPECT_NEAR(solid.solid()->diameter(), std::sqrt(14.0) / std::cbrt(6.0), 1e-15) << to_string(solid);
   }
   EXPECT_EQ(parse(to_json(manifest)).solids, manifest.solids) << "without the files";
-}
-
-TEST(SolidPackings, ComeBackBitForBit) {
-  const auto manifest = parse(swept({{"brick", {{"box", {1, 1.5, 2}}}}}, {"brick", "rhombic_dodecahedron"}));
-  for (const auto& solid : manifest.solids) {
-    RandomStream random{81};
-    const auto packing = random_packing(*solid.solid(), 100, .5, random);
-    const auto json = to_json(packing);
-    EXPECT_EQ(json.contains("vertices"), to_string(solid) == "brick");
-    const auto text = Json::parse(json.dump());
-    const auto again = read_packing(JsonPlace(text, "p.json"));
-    EXPECT_TRUE(again.solids == packing.solids);
-    EXPECT_EQ(again.poses, packing.poses);
-  }
-}
-
-TEST(SolidRuns, NameTheirSolids) {
-  const test::TemporaryDirectory directory;
-  auto manifest = swept({{"brick", {{"box", {1, 1.2, 1.4}}}}}, {"brick", "truncated_tetrahedron"});
-  manifest["sweep"]["particles"] = {60};
-  manifest["replicates"] = 1;
-  manifest["measure"] = {"contacts", "order", "clusters", "modes", "moduli"};
-  manifest["modes"] = 4;
-  test::write_text(directory / "m.json", manifest.dump());
-  const auto run = test::isojam({"run", "m.json", "-o", "r"}, directory.path());
-  ASSERT_EQ(run.exit_code, 0) << run.err << run.out;
-  EXPECT_NE(run.out.find("brick"), std::string::npos) << run.out;
-  EXPECT_NE(run.out.find("truncated_tetrahedron"), std::string::npos) << run.out;
-  for (const auto& command : {std::vector<std::string>{"aggregate", "r"},
-                              {"report", "r"},
-                              {"status", "r"},
-                              {"export", "r", "all", "--format", "gsd", "-o", "gsd"}}) {
-    const auto done = test::isojam(command, directory.path());
-    EXPECT_EQ(done.exit_code, 0) << command.front() << ": " << done.err;
-  }
-  const auto record = test::files_below(directory / "r" / "records").at("brick-N60-r0000.json");
-  EXPECT_EQ(Json::parse(record).at("spec").at("vertices").size(), 8U);
 }
 
 }  // namespace

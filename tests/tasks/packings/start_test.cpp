@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "tasks/io/file.hpp"
 #include "tasks/io/input_error.hpp"
 #include "tasks/manifest/plan.hpp"
+#include "tasks/manifest/warnings.hpp"
 #include "tasks/packings/foreign_packing.hpp"
 #include "tasks/packings/gsd_layer.hpp"
 #include "tasks/packings/similarity.hpp"
@@ -131,16 +133,18 @@ TEST(ForeignPackings, OfXyzAreTheIntendedOnes) {
   }
 }
 
-TEST(ForeignPackings, OfGsdHaveTheIntendedCell) {
+TEST(ForeignPackings, HaveTheIntendedCell) {
   DoubleDoubleMatrix f;
   f.high(0, 0) = 1.2, f.high(1, 1) = .9;
   f.high(0, 1) = .2, f.high(0, 2) = -.15, f.high(1, 2) = .1;
   const Packing packing = deformed(sample(SolidKind::cube), f);
-  const Packing again = packing_of(
-      read_gsd_packing(gsd_file(std::vector<ExportFrame>{make_frame(packing, std::nullopt)}), 0), SolidKind::cube);
-  const Eigen::Matrix3d there = packing.cell.vectors().high, back = again.cell.vectors().high;
-  EXPECT_LT((back - there).norm(), 1e-6 * there.norm()) << there << "\n" << back;
-  EXPECT_LT(farthest_corner(packing, again), 1e-5);
+  const std::vector<ExportFrame> frames{make_frame(packing, std::nullopt)};
+  for (const auto& foreign : {read_gsd_packing(gsd_file(frames), 0), read_xyz_packing(xyz_file(frames), 0)}) {
+    const Packing again = packing_of(foreign, SolidKind::cube);
+    const Eigen::Matrix3d there = packing.cell.vectors().high, back = again.cell.vectors().high;
+    EXPECT_LT((back - there).norm(), 1e-6 * there.norm()) << there << "\n" << back;
+    EXPECT_LT(farthest_corner(packing, again), 1e-5);
+  }
 }
 
 TEST(ForeignPackings, InvalidFilesAreRejected) {
@@ -224,27 +228,42 @@ TEST(Starts, ContinueFromStoredStates) {
   EXPECT_EQ(test::isojam({"rerun", "s", "octahedron-N48-r0000"}, directory.path()).exit_code, 65);
 }
 
-TEST(Starts, InvalidStartsAreRejectedAtTheirPlace) {
-  const test::TemporaryDirectory directory;
+/// Octahedra on a lattice that do not touch.
+Packing octahedra_apart() {
   Packing packing = strained_to(sample(SolidKind::octahedron, 64), .2);
   for (int i = 0; i < 64; ++i) {
     const Eigen::Vector3i place(i % 4, i / 4 % 4, i / 16);
     packing.poses[i].position = packing.cell.side() / 4 * place.cast<double>();
   }
+  return packing;
+}
+
+TEST(Starts, AlignedParticlesGiveAWarning) {
+  const test::TemporaryDirectory directory;
+  Packing packing = octahedra_apart();
+  for (const bool aligned : {false, true}) {
+    for (Pose& pose : packing.poses) {
+      if (aligned) pose.orientation.setIdentity();
+    }
+    test::write_text(directory / "a.xyz", xyz_file(std::vector{make_frame(packing, std::nullopt)}));
+    const auto manifest = started({{"packing", "a.xyz"}}, 64).dump();
+    std::string all;
+    for (const auto& warning : warnings_of(parse_manifest(manifest, (directory / "m.json").string()))) all += warning;
+    EXPECT_EQ(all.find("the packing is ordered: its orientational order S is 1.00") != std::string::npos, aligned)
+        << all;
+  }
+}
+
+TEST(Starts, InvalidStartsAreRejectedAtTheirPlace) {
+  const test::TemporaryDirectory directory;
+  const Packing packing = octahedra_apart();
   const std::vector<ExportFrame> frames{make_frame(packing, std::nullopt)};
   test::write_text(directory / "a.gsd", gsd_file(frames));
   test::write_text(directory / "a.xyz", xyz_file(frames));
   Packing deep = packing;
   deep.poses[1].position = deep.poses[0].position;
   test::write_text(directory / "deep.xyz", xyz_file(std::vector{make_frame(deep, std::nullopt)}));
-  const auto said = [&](const Json& manifest) -> std::string {
-    try {
-      parse_manifest(manifest.dump(), (directory / "m.json").string());
-      return "";
-    } catch (const InputError& error) {
-      return error.what();
-    }
-  };
+  const auto said = [&](const Json& manifest) { return test::refusal(manifest, (directory / "m.json").string()); };
   const auto expect = [&](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << "wanted: " << part << "\nsaid: " << text;
   };
@@ -275,6 +294,9 @@ TEST(Starts, InvalidStartsAreRejectedAtTheirPlace) {
          "own.json: /checksum: the file is damaged: its content does not match its checksum; write the file again, "
          "or use another file");
   EXPECT_EQ(own.find("own.json"), own.rfind("own.json")) << own;
+  ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0600), 0);
+  for (const std::string path : {"pipe", "/dev/zero"})
+    expect(said(started({{"packing", path}}, 64)), "is a pipe or a device, not a file");
   many = started({{"packing", "a.xyz"}}, 64);
   many["sweep"]["solid"] = {"octahedron", "cube"};
   expect(said(many), "one entry in /sweep/solid");
@@ -284,60 +306,6 @@ TEST(Starts, InvalidStartsAreRejectedAtTheirPlace) {
            return cubes;
          }()),
          "do not match cube");
-}
-
-TEST(Starts, PathsThatNoRecordCouldNameAreRejected) {
-  const test::TemporaryDirectory directory;
-  const auto odd = directory / "\xFF\xFE";
-  std::filesystem::create_directory(odd);
-  const std::vector<ExportFrame> frames{make_frame(sample(SolidKind::octahedron, 64), std::nullopt)};
-  test::write_text(odd / "a.xyz", xyz_file(frames));
-  test::write_text(odd / "m.json", started({{"packing", "a.xyz"}}, 64).dump());
-  const auto run = test::isojam({"run", "m.json", "-o", "r"}, odd);
-  EXPECT_EQ(run.exit_code, 65) << run.err;
-  EXPECT_NE(run.err.find("/start/packing"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("not valid UTF-8"), std::string::npos) << run.err;
-}
-
-/// As a user of HOOMD-blue writes it: lengths are in units of the edge, and the vertices of the solid are not relative
-/// to its centroid.
-TEST(Starts, FromAFileThatPythonWrote) {
-  const test::TemporaryDirectory directory;
-  test::write_text(directory / "write.py", R"(import itertools, math, random
-import gsd.hoomd
-random.seed(3)
-new = hasattr(gsd.hoomd, 'Frame')
-snapshot = gsd.hoomd.Frame() if new else gsd.hoomd.Snapshot()
-n, edge = 4, 2.2
-L = n * edge
-snapshot.configuration.box = [L, L, L, 0, 0, 0]
-cells = list(itertools.product(range(n), repeat=3))
-snapshot.particles.N = len(cells)
-snapshot.particles.types = ['box']
-snapshot.particles.type_shapes = [{'type': 'ConvexPolyhedron', 'rounding_radius': 0,
-    'vertices': [[x, y, z] for x in (-.4, .6) for y in (-.5, .7) for z in (-.6, .8)]}]
-snapshot.particles.position = [[(c + .5) * edge - L / 2 for c in cell] for cell in cells]
-quaternions = []
-for _ in cells:
-    q = [random.gauss(0, 1) for _ in range(4)]
-    r = math.sqrt(sum(c * c for c in q))
-    quaternions.append([c / r for c in q])
-snapshot.particles.orientation = quaternions
-opened = gsd.hoomd.open('written.gsd', 'w' if new else 'wb')
-opened.append(snapshot)
-opened.close()
-)");
-  const auto python = test::shell(ISOJAM_PYTHON " -B write.py", directory.path());
-  ASSERT_EQ(python.exit_code, 0) << python.err;
-  auto manifest = started({{"packing", "written.gsd"}}, 64);
-  manifest["solids"] = {{"brick", {{"box", {1, 1.2, 1.4}}}}};
-  manifest["sweep"]["solid"] = {"brick"};
-  test::write_text(directory / "m.json", manifest.dump());
-  const auto parsed = parse_manifest(manifest.dump(), (directory / "m.json").string());
-  const auto& packing = *parsed.start->files[0].packing;
-  EXPECT_NEAR(packing.density(), 1.2 * 1.4 / std::pow(2.2, 3), 1e-6);
-  const auto run = test::isojam({"run", "m.json", "-o", "r"}, directory.path());
-  EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
 }  // namespace
