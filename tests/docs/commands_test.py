@@ -1,9 +1,6 @@
 """Tests the commands of isojam in the pages. usage: commands_test.py SOURCE PROGRAM"""
 
-import json
-import os
 import pathlib
-import pty
 import re
 import shlex
 import shutil
@@ -148,65 +145,6 @@ class CommandLines(unittest.TestCase):
                 self.assertRegex(said, rf"(?<![\w-]){option}(?![\w-])", command)
         for option in options_in(help_of()) - {"-h", "--help", "--version", "--verbose"}:
             self.assertIn(option, page)
-
-    def test_what_is_wrong_is_found(self):
-        self.assertIn("no option", self.refusal("run MANIFEST --dry"))
-        self.assertIn("knows no pdf", self.refusal("export DIR REPLICATE --format gsd|pdf -o FILE"))
-        self.assertIn("no command", self.refusal("jam MANIFEST"))
-        self.assertIn("exit 2", self.refusal("run examples/none/manifest.json"))
-        self.assertIn("exit 2", self.refusal("export DIR REPLICATE --format pdf"))
-        self.assertIn("exit 2", self.refusal("validate MANIFEST MANIFEST"))
-        self.assertIsNone(self.refusal("run examples/01-four-solids/manifest.json"))
-        self.assertEqual([line for _, line in shown("    build/isojam status DIR   # so\n\nBy `isojam run X -o Y`.\n")],
-                         ["status DIR", "run X -o Y"])
-
-
-class StoppingRule(unittest.TestCase):
-    """A study with a stopping rule, run again in a terminal with more replicates."""
-
-    def in_terminal(self, *arguments):
-        """Output and messages of the command in a terminal of 80 columns."""
-        master, slave = pty.openpty()
-        subprocess.run(["stty", "cols", "80", "rows", "40"], stdin=slave, check=True)
-        with subprocess.Popen([PROGRAM, *arguments], stdin=slave, stdout=slave, stderr=slave) as process:
-            os.close(slave)
-            out = b""
-            try:
-                while part := os.read(master, 65536):
-                    out += part
-            except OSError:  # the end of the output, in Linux
-                pass
-        os.close(master)
-        self.assertEqual(process.returncode, 0)
-        return out.decode().replace("\r\n", "\n")
-
-    def test_states_its_goal_and_continues(self):
-        with tempfile.TemporaryDirectory() as folder:
-            here = pathlib.Path(folder)
-
-            def command(most):
-                rule = {"min": 2, "max": most, "quantity": "phi_j", "half_width": 1e-4}
-                (here / "m.json").write_text(json.dumps({
-                    "name": "mine", "seed": 11, "replicates": rule, "measure": ["contacts"],
-                    "sweep": {"solid": ["dodecahedron"], "particles": [28]},
-                    "protocol": {"initial_density": 0.5, "final_distance": 0.04}}), encoding="utf-8")
-                return "run", str(here / "m.json"), "-o", str(here / "r")
-
-            def records():
-                return {path.name: path.read_bytes() for path in (here / "r/records").iterdir()}
-
-            done = run(command(3), here)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            goal = next(part for part in done.stdout.split("\n\n") if part.startswith("goal"))
-            self.assertIn("1.0e-04", goal.replace("0.0001", "1.0e-04"))
-            before = records()
-            shown = self.in_terminal(*command(6))
-            self.assertIn("confidence interval still too wide: running 2 more replicates", shown)
-            bars = re.findall(r"\[([#.]*)\] (\d+) of (\d+) replicates?", shown)
-            self.assertGreater(len(bars), 1, shown)
-            self.assertTrue(all(len(bar) == 24 and int(finished) <= int(wanted) for bar, finished, wanted in bars), bars)
-            self.assertEqual((len(before), len(records())), (3, 6))
-            self.assertLessEqual(before.items(), records().items())
 
 
 if __name__ == "__main__":

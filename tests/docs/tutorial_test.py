@@ -116,15 +116,6 @@ class Tutorial(unittest.TestCase):
         self.assertEqual(page.count("```"), 2 * len(list(blocks(page))), "a block is none of console, json and python")
         self.assertEqual(follow(page, self.here), [])
 
-    def test_what_differs_is_found(self):
-        right = "```console\n$ build/isojam --version\nisojam … (…\n```\n"
-        self.assertEqual(follow(right, self.here), [])
-        self.assertIn("does not print: isojm", follow(right.replace("\nisojam", "\nisojm"), self.here)[0])
-        self.assertIn("exit code", follow(right.replace("--version", "--vers"), self.here)[0])
-        self.assertIn("no sentence names the file", follow("```json\n{}\n```\n", self.here)[0])
-        self.assertEqual(missing(["a b", "…", "d 3 s"], "a  b\nc\nd 5.1 s\n"), None)
-        self.assertEqual(missing(["d", "a"], "a\nd\n"), "a")
-
 
 if __name__ == "__main__":
     os.environ.pop("ISOJAM", None)

@@ -2,7 +2,6 @@
 
 import functools
 import os
-import subprocess
 import warnings
 
 import numpy
@@ -10,8 +9,6 @@ import pandas
 
 import support
 from support import CUBES, FREE, MIXED, isojam
-
-from isojam import program
 
 
 @functools.lru_cache(maxsize=None)
@@ -81,19 +78,6 @@ class Ways(support.Case):
             isojam.load(CUBES, program=self.stub("echo no such format >&2; exit 2\n")).contacts()
         self.assertEqual(caught.exception.message, "no such format")
         self.assertIn(str(CUBES), caught.exception.command)
-
-    def test_measures_added_later(self):
-        copy = self.copy(CUBES)
-        subprocess.run([program.find(), "measure", copy, "--add", "rigidity"], check=True, stdout=subprocess.DEVNULL,
-                       stderr=subprocess.DEVNULL)
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            study, before = isojam.load(copy), support.study(CUBES)
-            self.assertTrue((study.states["self_stress_normals"] >= 0).any())
-            for name in study.names:
-                numpy.testing.assert_array_equal(study.packing(name).positions, before.packing(name).positions)
-                self.assertEqual(len(study.path(name)), len(before.path(name)))
-            pandas.testing.assert_frame_equal(study.contacts(), contacts(CUBES))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,6 @@
 """Tests files that are damaged, replaced or not there yet: each is an InputError with file, place and remedy."""
 
 import json
-import os
 import pathlib
 import subprocess
 import time
@@ -9,7 +8,7 @@ import time
 import support
 from support import CUBES, MIXED, isojam, numpy
 
-from isojam import files, program
+from isojam import program
 
 REPLACEMENTS = (None, {}, [{}], "x", -1, True, 10**400, float("nan"))
 NOTHING = object()
@@ -56,11 +55,6 @@ class Case(support.Case):
 
 
 class Checksums(Case):
-    def test_reference_values(self):
-        """From the page of the authors of FNV, with an empty text as the first."""
-        for text, value in ((b"", 0xCBF29CE484222325), (b"a", 0xAF63DC4C8601EC8C), (b"foobar", 0x85944171F73967E8)):
-            self.assertEqual(files.fnv1a(text), value)
-
     def test_a_changed_byte_is_found_in_every_file(self):
         where, (manifest, record, *packings) = self.one_replicate(CUBES)
         read_all(isojam.load(where))
@@ -114,32 +108,6 @@ class Documents(Case):
                 file.write_bytes(whole)
         print(f"{read} files read, {refused} refused")
         self.assertGreater(min(read, refused), 100)
-
-    def test_packings_without_which_there_is_no_result(self):
-        where, (_, record, packing) = self.one_replicate(MIXED)
-        whole = json.loads(packing.read_text())
-        for key, value in (("positions", True), ("positions", []), ("orientations", whole["orientations"][1:]), ("side", "x"),
-                           ("density", None), ("kind", [7] * 52), ("kind", [-1] * 52), ("kinds", [{}]), ("size", [0] * 9),
-                           ("schema", "isojam.packing.v1"), ("result_digest", "0" * 16), ("spec_digest", "0" * 16)):
-            packing.write_text(json.dumps({**whole, key: value}))
-            with self.subTest(f"{key} = {value!r:.40}"):
-                self.assertEqual(self.refused(lambda: read_all(isojam.load(where, check=False))).file, str(packing))
-        packing.unlink()
-        self.refused(lambda: read_all(isojam.load(where)), str(packing), "No such file")
-
-    def test_what_is_no_regular_file(self):
-        where, files = self.one_replicate(CUBES)
-        for file in files:
-            whole = file.read_bytes()
-            for make in (os.mkfifo, os.mkdir, lambda f: f.symlink_to("/dev/null")):
-                file.unlink()
-                make(file)
-                self.refused(lambda: read_all(isojam.load(where)), str(file), "regular file")
-                (file.rmdir if file.is_dir() else file.unlink)()
-                file.write_bytes(whole)
-        os.mkfifo(where / "pipe")
-        for file in (where / "pipe", "/dev/null", where, "a\0b"):
-            self.refused(lambda: isojam.run(file, where / "r", progress=False), str(file))
 
 
 class Unfinished(Case):

@@ -37,43 +37,8 @@ class Exported(support.Case):
             self.near(packing.orientations, numpy.roll(particles["orientation"], 1, axis=1), 4 * results.DOUBLE, "w, x, y, z")
             self.assertEqual(set(packing.solid_names), set(particles["solid"]))
 
-    def test_density_and_low_parts(self):
-        for directory in support.ALL:
-            for name in support.done(directory):
-                packing = support.study(directory).packing(name)
-                self.assertEqual(packing.side is None, directory == FREE)
-                volume = abs(numpy.linalg.det(packing.cell))
-                self.near((packing.size**3).sum() / volume, packing.density, 1e-13, "density")
-                for high, low in ((packing.positions, packing.positions_low), (packing.cell, packing.cell_low),
-                                  (packing.orientations, packing.orientations_low)):
-                    self.assertEqual(high.shape, low.shape)
-                    self.assertTrue((numpy.abs(low) <= .5 * numpy.spacing(numpy.abs(high))).all(), name)
-                self.assertGreater(numpy.count_nonzero(packing.positions_low), len(packing))
-
 
 class Solids(support.Case):
-    def test_unit_volume_about_the_centroid(self):
-        seen = set()
-        for directory in support.ALL:
-            for name in support.done(directory):
-                for solid in support.study(directory).packing(name).solids:
-                    volume, _ = results.moments(solid.vertices, solid.faces)
-                    self.near(volume, 1, 1e-13, solid.name)
-                    self.near(self.centroid(solid), numpy.zeros(3), 1e-13, f"centroid of the {solid.name}")
-                    self.assertEqual(len(solid.vertices) - sum(map(len, solid.faces)) / 2 + len(solid.faces), 2)
-                    seen.add(solid.name)
-        self.assertEqual(seen, {"tetrahedron", "cube", "dodecahedron", "icosahedron", "brick"})
-
-    @staticmethod
-    def centroid(solid):
-        """Centroid of a solid with unit volume, from tetrahedra with a vertex at the origin."""
-        centroid = numpy.zeros(3)
-        for face in solid.faces:
-            a = solid.vertices[face[0]]
-            for b, c in zip(solid.vertices[face[1:-1]], solid.vertices[face[2:]]):
-                centroid += numpy.dot(a, numpy.cross(b, c)) / 24 * (a + b + c)
-        return centroid
-
     def test_the_brick_is_as_the_manifest_says(self):
         name = next(name for name in support.done(MIXED) if name.startswith("brick"))
         brick, = support.study(MIXED).packing(name).solids

@@ -1,6 +1,5 @@
 """Tests the communication between the module and the program. Small scripts replace the program."""
 
-import importlib.util
 import os
 import pathlib
 import signal
@@ -105,22 +104,6 @@ class Progress(Case):
             again = self.stub("".join(f"echo '{PROGRESS.format(done, 0, done)}' >&2\n" for done in (0, 2, 0, 1)))
             isojam.run("m.json", CUBES, program=again)
         self.assertEqual([bar.n for bar in bars], [2, 2, 1])
-
-    def test_a_run_needs_no_standard_error(self):
-        """Neither a missing, nor a closed, nor a failing standard error ends the run, or is taken for another file."""
-        result = pathlib.Path(self.folder(), "result")
-        for tqdm in ("import tqdm", "sys.modules['tqdm'] = None"):
-            for how in ("sys.stderr = None", "sys.stderr.close()", "os.close(1); os.close(2)",
-                        "sys.stderr = open('/dev/full', 'w')"):
-                if tqdm == "import tqdm" and not importlib.util.find_spec("tqdm"):
-                    continue
-                for manifest in ("'m.json'", "{'name': 'x'}"):
-                    command, environment = self.start(
-                        f"import isojam, os\n{tqdm}\n{how}\ntry: said = repr(isojam.run({manifest}, {str(CUBES)!r}))\n"
-                        f"except BaseException as error: said = repr(error)\nopen({str(result)!r}, 'w').write(said)\n"
-                        "os._exit(0)", ISOJAM=str(self.program))
-                    subprocess.run(command, env=environment, stderr=subprocess.DEVNULL, check=True)
-                    self.assertIn("replicates>", result.read_text(), f"{tqdm}; {how}; {manifest}")
 
 
 class Versions(Case):

@@ -124,14 +124,6 @@ class Means(support.Case):
                     for name, value in line.items():
                         self.assertTrue(own[name] == type(own[name])(value) if value else numpy.isnan(own[name]), name)
 
-    def test_the_program_is_called_once_for_each_table(self):
-        calls = pathlib.Path(self.folder(), "calls")
-        study = isojam.load(MIXED, program=self.stub(f'echo x >>{calls}\nexec {program.find()} "$@"\n'))
-        study.table()["over"] = "changed"
-        for series in (False, True, False, True):
-            self.assertNotIn("changed", list(study.table(series)["over"]))
-        self.assertEqual(calls.read_text(), "x\nx\n")
-
     def test_notebook(self):
         table = support.study(FREE).table()
         head, *lines = [re.findall("<t[hd]>(.*?)</t[hd]>", line)
