@@ -1,11 +1,9 @@
 """Tests pages of reports in Chromium, opened from disk. usage: report_browser_test.py ISOJAM"""
 
-import sys
 import unittest
 
 import browser as browsers
-import report_pages
-from report_case import CHARTS, COUNT, DRAWN, REST, TURNS, Case
+from report_case import CHARTS, COUNT, DRAWN, REST, Case
 from report_chart_tests import ChartTests
 from report_many_tests import ManyTests
 from report_mixture_tests import MixtureTests
@@ -94,30 +92,6 @@ class Report(ChartTests, ManyTests, MixtureTests, Case):
         start.click()
         self.expect_rest()
 
-    def test_less_motion_means_none(self):
-        self.browser.media(prefers_reduced_motion="reduce")
-        self.addCleanup(self.browser.media)
-        self.open(self.page)
-        self.view()
-        Select(self.find("#view-mode")).select_by_index(1)
-        self.assertFalse(self.find("#view-start").is_enabled())
-        still = self.browser.run(DRAWN)["hash"]
-        self.assertNotEqual(self.after(lambda: self.find("#view-phase").send_keys(Keys.ARROW_RIGHT * 5))["hash"], still)
-
-    def test_four_hundred_particles_turn_without_outlines(self):
-        directory = self.pages.by_hand("large", self.full, "dodecahedron", 400, 0.5)
-        self.open(self.pages.report(directory))
-        self.view()
-        self.assertIn("400 particles", self.find("#view").text)
-        self.browser.run(COUNT)
-        frames = self.browser.driver.execute_async_script(TURNS)
-        print(frames[:3], file=sys.stderr)
-        # A busy machine draws nothing in some frames, and all outlines in a frame that comes long after the last turn.
-        drawn = [frame["lines"] for frame in frames if frame["corners"]]
-        self.assertEqual(min(drawn, default=0), 24, "edges of the cell")
-        self.browser.wait("drawn.lines > 24000", "outlines after the last turn")
-        self.browser.driver.execute_async_script(REST)
-
     def test_without_webgl_a_sentence_stands_in_its_place(self):
         other = browsers.Browser(self.root, "plain", ["--disable-gpu", "--disable-3d-apis"])
         self.addCleanup(other.quit)
@@ -157,13 +131,6 @@ class Report(ChartTests, ManyTests, MixtureTests, Case):
         self.open(self.pages.report(nothing))
         self.assertEqual(self.charts(), ["density", "extrapolation", "stops", "evaluations", "time"])
         self.assertIn('isojam measure DIR --add contacts', self.find(".absent").text)
-
-    def test_cubes(self):
-        self.open(self.pages.report(self.pages.by_hand("cubes", self.full, "cube", 64, 0.5)))
-        self.assertIn("cube", self.find("#table").text)
-        self.assertIn("face-face", self.charts())
-        self.view()
-        self.assertGreater(self.browser.run(DRAWN)["drawn"], 0)
 
     def test_markup_in_names_is_text(self):
         self.open(self.pages.report(self.pages.forged("forged", self.full)))

@@ -31,24 +31,10 @@ for (let k = 0; k < data.length; k += 4) {
 }
 return {drawn, hash, all: data.length / 4};"""
 
-# Counts, from here on, the frames that the page asks for, and the corners of triangles and ends of lines that it draws.
+# Counts, from here on, the frames that the page asks for.
 COUNT = """
-Object.assign(window, {asked: 0, drawn: {lines: 0, corners: 0}, frame: window.requestAnimationFrame.bind(window)});
-window.requestAnimationFrame = (work) => { asked += 1; return frame(work); };
-// Older versions of three.js draw in WebGL 1, with instances by an extension.
-const canvas = document.getElementById('packing'), context = canvas.getContext('webgl2') ?? canvas.getContext('webgl');
-const extension = context.getExtension('ANGLE_instanced_arrays') ?? {};
-for (const [owner, name, count, instances] of [
-  [context, 'drawArrays', 2], [context, 'drawElements', 1], [context, 'drawArraysInstanced', 2, 3],
-  [context, 'drawElementsInstanced', 1, 4], [extension, 'drawArraysInstancedANGLE', 2, 3],
-  [extension, 'drawElementsInstancedANGLE', 1, 4]]) {
-  const draw = owner[name];
-  if (!draw) continue;
-  owner[name] = function (...values) {
-    drawn[values[0] === context.LINES ? 'lines' : 'corners'] += values[count] * (instances ? values[instances] : 1);
-    return draw.apply(this, values);
-  };
-}"""
+Object.assign(window, {asked: 0, frame: window.requestAnimationFrame.bind(window)});
+window.requestAnimationFrame = (work) => { asked += 1; return frame(work); };"""
 
 # Done when the page has asked for no frame while thirty went by.
 REST = """
@@ -60,18 +46,6 @@ const look = () => {
   return quiet === 30 ? done(true) : frame(look);
 };
 look();"""
-
-# Presses a key for each of twenty frames; done with the counts of each frame.
-TURNS = """
-const done = arguments[arguments.length - 1], canvas = document.getElementById('packing'), frames = [];
-const turn = () => {
-  if (frames.length === 20) return done(frames);
-  Object.assign(drawn, {lines: 0, corners: 0});
-  canvas.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowRight', bubbles: true, cancelable: true}));
-  frame(() => { frames.push({...drawn}); turn(); });
-};
-turn();"""
-
 
 class Case(unittest.TestCase):
     @classmethod

@@ -58,12 +58,6 @@ class ChartTests:
         self.assertEqual(heading[:2], [True, True], heading[2])
         self.assertNotIn("$", self.browser.run("return document.querySelector('main').innerHTML"))
 
-    def test_the_density_chart_shows_every_replicate(self):
-        self.open(self.page)
-        shown = self.browser.run("""
-            return [...document.querySelectorAll('#chart-density g.mark-symbol')].map((g) => g.children.length)""")
-        self.assertEqual(shown[:2], [4, 2], "replicates, means")
-
     def tooltip_of(self, mark):
         self.browser.run("arguments[0].scrollIntoView({block: 'center'})", mark)
         ActionChains(self.browser.driver).move_to_element(mark).perform()

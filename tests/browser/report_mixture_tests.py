@@ -8,14 +8,6 @@ from selenium.webdriver.support.ui import Select
 PALETTE = json.loads((pathlib.Path(__file__).resolve().parents[2] / "tasks/extras/page/palette.json").read_text())
 MIXTURE = {"name": "mixed", "mixture": [{"solid": "dodecahedron", "fraction": 0.5}, {"solid": "icosahedron", "fraction": 0.5}]}
 
-OVERLAPS = """
-const panels = [...document.querySelectorAll(`#chart-${arguments[0]} g.role-scope > g`)];
-return panels.map((panel) => {
-  const marks = [...panel.querySelectorAll('g[class*="symbol_critical"] path')].map((mark) => mark.getBoundingClientRect());
-  const apart = (a, b) => a.right <= b.left + 1 || b.right <= a.left + 1 || a.bottom <= b.top + 1 || b.bottom <= a.top + 1;
-  return [marks.length, marks.every((a, k) => marks.slice(k + 1).every((b) => apart(a, b)))];
-}).filter(([count]) => count > 0);"""
-
 
 class MixtureTests:
     def mixed(self):
@@ -89,15 +81,6 @@ class MixtureTests:
             self.assertEqual(0 < angle < 180, line.endswith(" loading"), f"{line}: {angle}")
         self.assertGreater(len(arrows), 3)
 
-    def test_critical_angles_do_not_overlap(self):
-        self.open(self.pages.report(self.mixed()))
-        for together in (False, True):
-            self.choose("together", together)
-            for chart in ("edge-face", "face-face"):
-                found = self.browser.run(OVERLAPS, chart)
-                self.assertGreater(len(found), 0, chart)
-                self.assertEqual({apart for _, apart in found}, {True}, f"{chart}, together {together}: {found}")
-
     def test_the_table_states_the_goal_and_every_number(self):
         self.open(self.pages.report(self.mixed()))
         text = self.find("#table").text
@@ -111,14 +94,3 @@ class MixtureTests:
             self.assertTrue(shown.endswith(f" ({title.split('n = ')[1].split()[0]})"), f"{title}: {shown}")
         self.assertEqual(self.browser.run("return JSON.parse(document.getElementById('data').textContent).csv"),
                          self.pages.table(self.mixed(), "csv"))
-
-    def test_every_panel_of_a_narrow_page_has_its_axis_title(self):
-        self.addCleanup(self.browser.width, 1200)
-        self.browser.width(390)
-        self.open(self.pages.report(self.mixed()))
-        for chart in ("topology", "face-face", "shear", "forces", "pairs"):
-            titles = self.browser.run("""
-                return [...document.querySelectorAll(`#chart-${arguments[0]} g.role-scope > g`)]
-                  .filter((panel) => panel.querySelector(':scope > g .role-axis'))
-                  .map((panel) => panel.querySelectorAll('.role-axis-title text').length)""", chart)
-            self.assertEqual(set(titles), {2}, chart)

@@ -1,6 +1,5 @@
 """Results directories for the browser tests: results of a real run, modified copies of it, and artificial packings."""
 
-import copy
 import fractions
 import json
 import math
@@ -228,41 +227,9 @@ class Pages:
                     write_sealed(directory / "packings" / f"{copy_name}.json", held)
         return directory
 
-    def by_hand(self, name, source, solid, particles, density):
-        """Results with one replicate: particles on a lattice with random orientations, and the states of a real
-        replicate."""
-        directory = without_manifest(self.single(name, source))
-        record = next((directory / "records").iterdir())
-
-        def resize(document):
-            document["spec"].update(solid=solid, particles=particles)
-            document["flags"] = []
-
-        change_record(record, resize)
-        packing = next((directory / "packings").iterdir())
-        made = json.loads(packing.read_text())
-        made.update(lattice(particles, density), solid=solid)
-        write_sealed(packing, made)
-        return directory
-
 
 def without_manifest(directory):
     """The directory after its manifests were removed, because they do not request the records that are made by hand."""
     (directory / "manifest.json").unlink()
     shutil.rmtree(directory / "manifests")
     return directory
-
-
-def lattice(particles, density):
-    side = (particles / density) ** (1 / 3)
-    sites = math.ceil(particles ** (1 / 3))
-    numbers = random.Random(11)
-    positions, orientations = [], []
-    for k in range(particles):
-        site = (k % sites, k // sites % sites, k // sites**2)
-        positions.append([(c + 0.5) * side / sites for c in site])
-        q = [numbers.gauss(0, 1) for _ in range(4)]
-        norm = math.sqrt(sum(c * c for c in q))
-        orientations.append([c / norm for c in q])
-    low = {"positions_low": [[0.0] * 3] * particles, "orientations_low": [[0.0] * 4] * particles}
-    return copy.deepcopy({"density": density, "side": side, "positions": positions, "orientations": orientations, **low})

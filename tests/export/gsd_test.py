@@ -52,20 +52,6 @@ class Gsd(check.RoundTrip):
             side = numpy.float32(state.side)
             self.assertEqual(list(snapshot.configuration.box), [side, side, side, 0, 0, 0])
 
-    def test_both_readers_agree(self):
-        for stem, states, _, _ in self.cases():
-            with open(str(stem) + ".gsd", "rb") as file, gsd.hoomd.open(str(stem) + ".gsd") as trajectory:
-                by_c = trajectory.file
-                by_python = gsd.pygsd.GSDFile(file)
-                self.assertEqual((by_c.schema, by_c.schema_version, by_c.gsd_version), ("hoomd", (1, 4), (2, 0)))
-                chunks = by_c.find_matching_chunk_names("")
-                self.assertEqual(sorted(chunks), sorted(by_python.find_matching_chunk_names("")))
-                for k in range(len(states)):
-                    for chunk in chunks:
-                        self.assertEqual(by_c.chunk_exists(k, chunk), by_python.chunk_exists(k, chunk))
-                        if by_c.chunk_exists(k, chunk):
-                            numpy.testing.assert_array_equal(by_c.read_chunk(k, chunk), by_python.read_chunk(k, chunk))
-
     def test_positions(self):
         for _, snapshot, state, _ in self.frames():
             side = float(snapshot.configuration.box[0])
