@@ -165,8 +165,9 @@ TEST(HoldingMeasure, GapsCountsEveryPair) {
     const double distance = packing.density() - octahedra().phi_j->density;
     const auto gaps = near_gaps(packing, .1);
     const auto near = std::count_if(gaps.begin(), gaps.end(), [&](const Gap& gap) { return gap.width < distance; });
-    if (!states[k].at("within_distance").is_null())
+    if (!states[k].at("within_distance").is_null()) {
       EXPECT_EQ(states[k].at("within_distance").get<double>(), 2. * static_cast<double>(near) / packing.size());
+    }
     EXPECT_EQ(states[k].at("log10_gap").size(), states[k].at("faces").at("counts").size() + 1);
     EXPECT_EQ(states[k].at("log10_force").size(), states[k].at("face_face").at("counts").size() + 1);
   }
