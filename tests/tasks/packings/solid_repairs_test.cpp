@@ -119,7 +119,7 @@ TEST(SolidRepairs, AreMadeOnRequestOnly) {
   const auto welded = parse({{"vertices", more}, {"merge", 1e-8}});
   EXPECT_EQ(features(welded), (std::array<std::size_t, 3>{6, 12, 8}));
   EXPECT_EQ(welded.definitions.at("mine").report.welded, 1);
-  expect_part(refused({{"vertices", points}, {"corners", 6}}), "set \"max_volume_change\" to 0.34");
+  expect_part(refusal(swept({{"vertices", points}, {"corners", 6}})), "set \"max_volume_change\" to 0.34");
   const auto fewer = parse({{"vertices", points}, {"corners", 6}, {"max_volume_change", .34}});
   const auto copy = to_json(fewer).at("solids").at("mine");
   std::printf("copy of the definition: volume_change %g\n", copy.at("volume_change").get<double>());
