@@ -54,28 +54,6 @@ TEST(Messages, EveryErrorOfAManifestHasItsPartsInJson) {
   EXPECT_EQ(errors[1].at("text"), "m.json: /protocol/target_energi: unknown key; did you mean \"target_energy\"?");
 }
 
-TEST(Messages, ProgressCountsFromZeroToAllReplicates) {
-  const test::TemporaryDirectory here;
-  test::write_text(here / "m.json", small_manifest().dump());
-  const auto text = shell("mkdir text && cd text && $ISOJAM run ../m.json -o r", here.path());
-  const auto json = shell("mkdir json && cd json && $ISOJAM run ../m.json -o r --messages json", here.path());
-  EXPECT_EQ(json.exit_code, 0) << json.err;
-  EXPECT_EQ(json.out, text.out);
-  EXPECT_EQ(test::results_below(here / "json/r"), test::results_below(here / "text/r"));
-  std::vector<Json> progress;
-  for (const auto& message : objects(json.err)) {
-    if (message.at("kind") == "progress") progress.push_back(message);
-  }
-  ASSERT_GE(progress.size(), 2U) << json.err;
-  for (const auto& message : progress) {
-    EXPECT_EQ(message.at("total"), 2);
-    EXPECT_EQ(message.at("failed"), 0);
-  }
-  EXPECT_EQ(progress.front().at("done"), 0);
-  EXPECT_EQ(progress.back().at("done"), 2);
-  EXPECT_EQ(progress.back().at("text"), "2 of 2 replicates");
-}
-
 TEST(Messages, WarningsAreObjectsAndQuietKeepsErrors) {
   const test::TemporaryDirectory here;
   auto manifest = small_manifest();
@@ -89,13 +67,6 @@ TEST(Messages, WarningsAreObjectsAndQuietKeepsErrors) {
   const auto missing = objects(shell("$ISOJAM validate none.json --messages json --quiet", here.path()).err);
   ASSERT_EQ(missing.size(), 1U);
   EXPECT_EQ(missing[0].at("kind"), "error");
-}
-
-TEST(Messages, ANameThatIsNotUtf8IsStillReported) {
-  const test::TemporaryDirectory here;
-  const auto ended = shell("$ISOJAM --messages json validate \"$(printf 'no\\377ne.json')\"", here.path());
-  EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_EQ(objects(ended.err).size(), 1U) << ended.err;
 }
 
 TEST(Messages, AManifestOnStandardInputHasItsPathsFromTheCurrentDirectory) {

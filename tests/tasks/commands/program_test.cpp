@@ -66,32 +66,6 @@ TEST(Program, ValidateReadsTheFilesOfAStartWithDigests) {
   }
 }
 
-TEST(Program, ReportsEachErrorOfAManifestInALine) {
-  const TemporaryDirectory directory;
-  auto manifest = test::good_manifest();
-  manifest["seed"] = -1;
-  manifest["protocol"] = {{"approach", 0.3}, {"max_steps", 0}};
-  test::write_text(directory / "m.json", manifest.dump());
-  const auto validate = isojam({"validate", "m.json"}, directory.path());
-  EXPECT_EQ(validate.exit_code, 65);
-  EXPECT_EQ(lines_of(validate.err), 3) << validate.err;
-  std::istringstream lines(validate.err);
-  for (std::string line; std::getline(lines, line);) EXPECT_EQ(line.rfind("isojam: error: m.json: /", 0), 0U) << line;
-}
-
-TEST(Program, WarnsOfUnsuitableSettings) {
-  const TemporaryDirectory directory;
-  auto manifest = test::good_manifest();
-  manifest["protocol"] = {{"final_distance", 0.05}, {"max_density", 0.5}};
-  test::write_text(directory / "m.json", manifest.dump());
-  const auto validate = isojam({"validate", "m.json"}, directory.path());
-  EXPECT_EQ(validate.exit_code, 0) << validate.err;
-  EXPECT_EQ(validate.out.rfind("OK: tiny: ", 0), 0U) << validate.out;
-  EXPECT_EQ(lines_of(validate.err), 2) << validate.err;
-  for (const std::string key : {"final_distance", "max_density"})
-    EXPECT_NE(validate.err.find("isojam: warning: m.json: /protocol/" + key + ": "), std::string::npos) << validate.err;
-}
-
 TEST(Program, AMeasureThatIsImpossibleAtZeroPressureIsNotAdded) {
   const TemporaryDirectory directory;
   auto manifest = test::good_manifest();
@@ -159,13 +133,6 @@ TEST(Program, NamesWrongAndMissingArguments) {
   }
 }
 
-TEST(Program, ListsOfFlagsDoNotContainNone) {
-  const TemporaryDirectory directory;
-  const auto run = isojam({"aggregate", ".", "--exclude", "none,crystalline"}, directory.path());
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_NE(run.err.find("--exclude: \"none\" is not accepted in a list"), std::string::npos) << run.err;
-}
-
 TEST(Program, AMissingOrEmptyDirectoryHasTheSameErrorInEveryCommand) {
   const TemporaryDirectory directory;
   std::filesystem::create_directory(directory / "empty");
@@ -226,89 +193,6 @@ TEST(Program, WrongOutputsAreRefusedWithTheRemedy) {
   EXPECT_EQ(run.err,
             "isojam: error: r/records: is a file instead of a folder; remove it, or choose another results "
             "directory\n");
-}
-
-TEST(Program, ADryRunPrintsReadableNumbers) {
-  const TemporaryDirectory directory;
-  auto manifest = test::good_manifest();
-  for (const int number : {1, 3}) {
-    manifest["replicates"] = number;
-    manifest["sweep"]["particles"] = number == 1 ? Json{24} : Json{24, 400};
-    test::write_text(directory / "m.json", manifest.dump());
-    const auto run = isojam({"run", "m.json", "--dry-run", "-j", std::to_string(number)}, directory.path());
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    const auto expected =
-        number == 1 ? std::vector<std::string>{"tiny: 1 sweep point,",
-                                               "N=24: 1 replicate, 0 recorded, less than 1 s of CPU time each\n",
-                                               "remaining: less than 1 s on 1 thread;"}
-                    : std::vector<std::string>{"tiny: 2 sweep points,", "N=400: 3 replicates, 0 recorded, about ",
-                                               "remaining: about ", " on 3 threads;"};
-    for (const auto& part : expected) EXPECT_NE(run.out.find(part), std::string::npos) << part << ": " << run.out;
-    EXPECT_EQ(run.out.find("about 0 s"), std::string::npos) << run.out;
-  }
-}
-
-TEST(Program, UsageErrorsEndWithTwo) {
-  const TemporaryDirectory directory;
-  test::write_text(directory / "m.json", test::good_manifest().dump());
-  const std::vector<std::vector<std::string>> wrong{
-      {},
-      {"rum"},
-      {"run"},
-      {"run", "m.json", "--jobs", "2"},
-      {"run", "m.json", "-j", "0"},
-      {"run", "m.json", "-j", "-1"},
-      {"run", "m.json", "-j", "two"},
-      {"run", "m.json", "m.json"},
-      {"run", "absent.json"},
-      {"run", "."},
-      {"validate"},
-      {"validate", "absent.json"},
-      {"validate", "m.json", "--color", "sometimes"},
-      {"aggregate"},
-      {"aggregate", "absent"},
-      {"aggregate", "."},
-      {"aggregate", ".", "--format", "xml"},
-      {"aggregate", ".", "--base", "step_fraction=\xff"},
-  };
-  for (const auto& arguments : wrong) {
-    std::string command;
-    for (const auto& word : arguments) command += word + " ";
-    const auto run = isojam(arguments, directory.path());
-    EXPECT_EQ(run.exit_code, 2) << command << ": " << run.err;
-    EXPECT_NE(run.err, "") << command;
-    EXPECT_EQ(run.err.find("json.exception"), std::string::npos) << command << ": " << run.err;
-    EXPECT_EQ(run.out, "") << command;
-  }
-  EXPECT_EQ(files_below(directory.path()).size(), 1U);
-}
-
-TEST(Program, AnUnwritableDirectoryEndsWithTwo) {
-  const TemporaryDirectory directory;
-  test::write_text(directory / "m.json", test::good_manifest().dump());
-  // Root ignores permissions, but nobody can write below a file or into the proc file system.
-  for (const std::string output : {"m.json", "m.json/results", "/proc/isojam"}) {
-    const auto run = isojam({"run", "m.json", "-o", output}, directory.path());
-    EXPECT_EQ(run.exit_code, 2) << output << ": " << run.err;
-    EXPECT_EQ(lines_of(run.err), 1) << run.err;
-    EXPECT_NE(run.err.find(output), std::string::npos) << run.err;
-  }
-  EXPECT_EQ(files_below(directory.path()),
-            (std::map<std::string, std::string>{{"m.json", test::good_manifest().dump()}}));
-}
-
-TEST(Program, HelpAndVersionGoToStdout) {
-  const TemporaryDirectory directory;
-  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
-                                                    {"run", "--help"},
-                                                    {"validate", "-h"},
-                                                    {"aggregate", "--help"},
-                                                    {"--version"}}) {
-    const auto run = isojam(arguments, directory.path());
-    EXPECT_EQ(run.exit_code, 0) << arguments.front();
-    EXPECT_EQ(run.err, "") << arguments.front();
-    EXPECT_NE(run.out, "") << arguments.front();
-  }
 }
 
 TEST(Program, ColourIsUsedOnRequest) {

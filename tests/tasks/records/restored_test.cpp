@@ -36,16 +36,6 @@ Outcome outcome_of(const ReplicateSpec& spec) {
   return outcome;
 }
 
-TEST(Restored, GivesTheSameRecordAgain) {
-  const auto outcome = outcome_of(test::make_plan(manifest_measuring({"contacts"})).front());
-  const auto record = test::record_on_disk(outcome);
-  auto again = outcome;
-  again.jam = restored_jam(read_record_document(record, "record"), outcome.jam.states, outcome.spec, "record");
-  for (std::size_t k = 0; k < outcome.jam.path.size(); ++k)
-    EXPECT_EQ(Json::diff(record.at("path").at(k), test::record_on_disk(again).at("path").at(k)).dump(), "[]") << k;
-  EXPECT_EQ(make_record(again).at("result_digest"), record.at("result_digest"));
-}
-
 TEST(Restored, NothingIsAddedIfTheRecordDiffers) {
   const test::TemporaryDirectory here;
   const auto few = manifest_measuring({"contacts"});

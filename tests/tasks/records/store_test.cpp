@@ -34,34 +34,6 @@ int count_records(const std::filesystem::path& directory) {
   return count;
 }
 
-TEST(Store, PackingsKeepEveryBit) {
-  const TemporaryDirectory directory;
-  const auto manifest = manifest_with();
-  const auto spec = test::make_plan(manifest)[0];
-  const Store store(directory / "results", manifest, unheard);
-  auto outcome = test::made_up_outcome(spec);
-  auto& state = outcome.jam.states[*nearest_state(outcome.jam)];
-  state = moved(state, Eigen::VectorXd::LinSpaced(6 * state.size(), 1e-20, 2e-20));
-  store.write(outcome);
-  std::ifstream file(store.packing_path(spec));
-  const auto packing = Json::parse(file);
-  EXPECT_EQ(packing.at("side").get<double>(), state.cell.side());
-  for (int i = 0; i < state.size(); ++i) {
-    const auto& pose = state.poses[i];
-    EXPECT_NE(pose.position_low, Eigen::Vector3d::Zero());
-    EXPECT_NE(pose.orientation_low, Eigen::Vector4d::Zero());
-    for (int c = 0; c < 3; ++c) {
-      EXPECT_EQ(packing.at("positions")[i][c].get<double>(), pose.position[c]);
-      EXPECT_EQ(packing.at("positions_low")[i][c].get<double>(), pose.position_low[c]);
-    }
-    for (int c = 0; c < 4; ++c) {
-      const int place = (c + 1) % 4;  // w comes first
-      EXPECT_EQ(packing.at("orientations")[i][place].get<double>(), pose.orientation.coeffs()[c]);
-      EXPECT_EQ(packing.at("orientations_low")[i][place].get<double>(), pose.orientation_low[c]);
-    }
-  }
-}
-
 TEST(Store, PackingsConformToTheirSchema) {
   RandomStream random{3};
   const Mixture mixture({{SolidKind::cube, .5}, {SolidKind::octahedron, .5, {.from = 1.4}}}, "");
@@ -87,89 +59,18 @@ TEST(Store, PackingsConformToTheirSchema) {
   }
 }
 
-TEST(Store, FindsWhatWasWritten) {
+TEST(NameLocks, AreOfTheirHolderAndNotOfTheProcess) {
   const TemporaryDirectory directory;
-  const auto manifest = manifest_with();
-  const auto plan = test::make_plan(manifest);
-  Warnings warnings;
-  const Store store(directory / "results", manifest, warnings.warn());
-  EXPECT_FALSE(store.recorded(plan[0]));
-  store.write(test::made_up_outcome(plan[0]));
-  EXPECT_TRUE(store.recorded(plan[0]));
-  EXPECT_FALSE(store.recorded(plan[1]));
-  auto failed = test::made_up_outcome(plan[1]);
-  failed.failure = Failure{"jam", "made up"};
-  store.write(failed);
-  EXPECT_TRUE(store.recorded(plan[1]));
-  EXPECT_TRUE(warnings.said.empty()) << warnings.said.front();
-  EXPECT_EQ(count_records(directory / "results"), 2);
-}
-
-TEST(Store, ADamagedRecordIsReportedAndNotUsed) {
-  const TemporaryDirectory directory;
-  const auto manifest = manifest_with();
-  const auto plan = test::make_plan(manifest);
-  Warnings warnings;
-  const Store store(directory.path(), manifest, warnings.warn());
-  store.write(test::made_up_outcome(plan[0]));
-  const auto path = store.record_path(plan[0]);
-  const auto whole = read_text(path.string());
-  for (std::size_t size = 0; size + 2 < whole.size(); size += whole.size() / 37) {
-    test::write_text(path, whole.substr(0, size));
-    warnings.said.clear();
-    EXPECT_FALSE(store.recorded(plan[0])) << size;
-    ASSERT_EQ(warnings.said.size(), 1U) << size;
-    EXPECT_NE(warnings.said[0].find(path.string()), std::string::npos) << warnings.said[0];
-    EXPECT_NO_THROW(Store(directory.path(), manifest, unheard)) << "the run replaces it";
-  }
-  test::write_text(path, whole);
-  EXPECT_TRUE(store.recorded(plan[0]));
-}
-
-TEST(Store, ARecordUnderAnotherNameIsNotUsed) {
-  const TemporaryDirectory directory;
-  const auto manifest = manifest_with();
-  const auto plan = test::make_plan(manifest);
-  Warnings warnings;
-  const Store store(directory.path(), manifest, warnings.warn());
-  store.write(test::made_up_outcome(plan[0]));
-  std::filesystem::copy_file(store.record_path(plan[0]), store.record_path(plan[1]));
-  std::filesystem::copy_file(store.packing_path(plan[0]), store.packing_path(plan[1]));
-  EXPECT_FALSE(store.recorded(plan[1]));
-  EXPECT_EQ(warnings.said.size(), 1U);
-}
-
-TEST(Store, ARecordWithoutItsPackingIsNotUsed) {
-  const TemporaryDirectory directory;
-  const auto manifest = manifest_with();
-  const auto spec = test::make_plan(manifest)[0];
-  Warnings warnings;
-  const Store store(directory.path(), manifest, warnings.warn());
-  store.write(test::made_up_outcome(spec));
-  std::filesystem::remove(store.packing_path(spec));
-  EXPECT_FALSE(store.recorded(spec));
-  EXPECT_EQ(warnings.said.size(), 1U);
-}
-
-TEST(Store, RefusesANameThatIsTaken) {
-  const TemporaryDirectory directory;
+  const NameLocks one(directory / "locks");
+  ASSERT_TRUE(one.take("a"));
   {
-    const Store store(directory.path(), manifest_with(7), unheard);
-    store.write(test::made_up_outcome(test::make_plan(manifest_with(7))[0]));
+    const NameLocks other(directory / "locks");
+    EXPECT_FALSE(other.take("a"));
+    EXPECT_TRUE(other.take("b"));
   }
-  for (int trial = 0; trial < 2; ++trial) {
-    const auto before = files_below(directory.path());
-    try {
-      const Store other(directory.path(), manifest_with(8), unheard);
-      FAIL() << "accepted";
-    } catch (const InputError& error) {
-      EXPECT_EQ(error.what(), (directory / "records/dodecahedron-N64-r0000.json").string() +
-                                  ": /provenance/seed: 7 in the record, 8 in this manifest, and only failed replicates "
-                                  "are computed again; restore the setting, or choose another results directory");
-    }
-    EXPECT_EQ(files_below(directory.path()), before);
-    std::filesystem::remove(directory / "manifest.json");
-  }
+  EXPECT_FALSE(NameLocks(directory / "locks").take("a")) << "a holder that ends releases only its own";
+  one.release("a");
+  EXPECT_TRUE(NameLocks(directory / "locks").take("a"));
 }
 
 TEST(Store, ADamagedRecordBeyondThePlanIsOnlyReported) {
@@ -253,12 +154,6 @@ TEST(Store, RecordsComeInOrderUpToTheFirstDamagedOne) {
     ASSERT_EQ(seen.size(), 40U);
     EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
   }
-}
-
-TEST(Store, ADirectoryWithoutRecordsIsNoResultsDirectory) {
-  const TemporaryDirectory directory;
-  EXPECT_THROW(count_records(directory.path()), FileError);
-  EXPECT_THROW(count_records(directory / "absent"), FileError);
 }
 
 }  // namespace

@@ -239,19 +239,6 @@ TEST_F(Adding, ARunRecomputesRecordsThatLackAMeasure) {
   EXPECT_EQ(files_below(here_ / "few" / "records"), before);
 }
 
-TEST_F(Adding, OpensARecordFourTimes) {
-  if (test::with_sanitizer) GTEST_SKIP() << "a sanitizer has the library's calls for itself";
-  const auto name = names().front();
-  const test::Failing count("open count 0 records/" + name + ".json");
-  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--add", "order"},
-                                                    {"--add", "clusters,rigidity"},
-                                                    {"--add", "gaps", "--only", name}}) {
-    const auto done = measure(arguments);
-    EXPECT_EQ(done.exit_code, 0) << done.err;
-    EXPECT_EQ(test::calls_counted(done.err, "open"), 4) << arguments[1] << ": " << done.err;
-  }
-}
-
 TEST_F(Adding, LeavesARecordThatAnotherProcessChanged) {
   const std::vector measures{Measure::contacts, Measure::order};
   auto manifest = own_manifest(here_ / "few");

@@ -118,30 +118,6 @@ TEST(Campaign, EndsWhenTheGoalIsMet) {
   EXPECT_EQ(given, expected);
 }
 
-TEST(Campaign, TheTableStatesHowManyWereNeeded) {
-  const TemporaryDirectory directory;
-  const auto manifest = with_goal();
-  run_all(directory.path(), manifest);
-  Aggregation aggregation;
-  for_each_record(directory.path(), test::unheard,
-                  [&](const RecordedReplicate& held) { aggregation.add(held.summary); });
-  const auto table = aggregation.table(manifest.replicates);
-  ASSERT_EQ(table.rows.size(), 3U);
-  for (const auto& row : table.rows) {
-    ASSERT_TRUE(row.goal);
-    EXPECT_EQ(row.goal->needed, row.replicates);
-    EXPECT_EQ(row.goal->met, *row.estimates[phi_j_column].half_width <= 0.006);
-    EXPECT_NEAR(*row.goal->half_width, *row.estimates[phi_j_column].half_width, 1e-15);
-  }
-  for (const auto& row : aggregation.table().rows) EXPECT_FALSE(row.goal);
-  auto tighter = manifest.replicates;
-  tighter.goal->half_width = 1e-6;
-  for (const auto& row : aggregation.table(tighter).rows) {
-    EXPECT_FALSE(row.goal->needed) << "the tighter rule asks for more";
-    EXPECT_FALSE(row.goal->met);
-  }
-}
-
 /// Every third replicate is a crystal with another density.
 Outcome partly_crystalline(const ReplicateSpec& spec) {
   auto outcome = test::made_up_outcome(spec);

@@ -35,27 +35,6 @@ TEST(GraphMeasures, NoMeasureIfNoneIsRequested) {
   EXPECT_EQ(outcomes, 3);
 }
 
-TEST(GraphMeasures, OnlyTheRequestedMeasures) {
-  for (const Measure named : all_measures) {
-    auto plan = plan_of(3);
-    for (auto& spec : plan) spec.measures = {named};
-    auto stages = quiet_stages();
-    std::mutex mutex;
-    std::vector<Measure> made;
-    stages.measure = [&](const ReplicateSpec&, Measure what, const JamResult&) {
-      const std::lock_guard lock(mutex);
-      made.push_back(what);
-      return Measurement{};
-    };
-    run_graph(one_by_one(plan), stages, {2, 0, {}, {}}, [&](const Outcome& outcome) {
-      EXPECT_EQ(outcome.measured.size(), 1U);
-      EXPECT_EQ(outcome.stage_seconds.size(), 2U) << "jam, and " << to_string(named);
-      EXPECT_TRUE(outcome.stage_seconds.contains(std::string(to_string(named))));
-    });
-    EXPECT_EQ(made, std::vector(3, named));
-  }
-}
-
 /// One replicate with these measures.
 std::vector<ReplicateSpec> one_measured_by(std::vector<Measure> measures) {
   auto plan = plan_of(1);

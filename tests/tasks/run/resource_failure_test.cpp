@@ -128,6 +128,15 @@ TEST_F(ResourceFailure, ARerunThatCannotBeWrittenKeepsTheRecord) {
   }
 }
 
+TEST_F(ResourceFailure, EveryResultAndItsFolderAreSynchronised) {
+  const auto files = static_cast<long>(test::results_below(*shared_ / "results").size());
+  const long all = count_of("fsync");
+  fs::remove_all(here_ / "results");
+  const long folders = count_of("syncdir");
+  EXPECT_GE(folders, files);
+  EXPECT_GE(all - folders, files);
+}
+
 TEST_F(ResourceFailure, ASmallStackIsSufficient) {
   auto manifest = test::tiny_manifest();
   manifest["measure"] = {"contacts", "modes"};
@@ -159,13 +168,6 @@ TEST_F(ResourceFailure, AnUnreadableManifestIsNotReportedAsInvalid) {
     EXPECT_EQ(ended.exit_code, 1) << ended.err;
     EXPECT_NE(ended.err.find("m.json: cannot be read: Input/output error"), std::string::npos) << ended.err;
   }
-}
-
-TEST_F(ResourceFailure, AThreadThatCannotBeCreatedIsReported) {
-  const Failing failing("thread 1+ 11");
-  const auto ended = run();
-  EXPECT_EQ(ended.exit_code, 1);
-  EXPECT_NE(ended.err.find("cannot create another thread"), std::string::npos) << ended.err;
 }
 
 TEST_F(ResourceFailure, WithLittleMemoryFromTheStart) {

@@ -217,36 +217,5 @@ TEST(Sequences, EveryManifestStillRunsToItsEnd) {
   ::unsetenv("TMPDIR");
 }
 
-TEST(Sequences, TwoProcessesAtOnceLoseNoManifest) {
-  const test::TemporaryDirectory here;
-  auto manifest = test::good_manifest();
-  manifest["protocol"] = {{"initial_density", 0.01}, {"max_density", 0.05}, {"compression_step", 1}, {"max_steps", 3}};
-  const std::vector<std::vector<int>> sizes{{2, 3}, {2, 4}};
-  for (std::size_t k = 0; k < 2; ++k) {
-    manifest["sweep"] = {{"solid", {"dodecahedron"}}, {"particles", sizes[k]}};
-    test::write_text(here / (std::to_string(k) + ".json"), manifest.dump());
-  }
-  // These packings end with a failure, which takes little time.
-  const auto run = [&](std::size_t k) {
-    return test::isojam({"run", std::to_string(k) + ".json", "-o", "r", "-j", "1"}, here.path());
-  };
-  for (int pair = 0; pair < 40; ++pair) {
-    fs::remove_all(here / "r");
-    test::Finished other;
-    {
-      const std::jthread second([&] { other = run(1); });
-      const auto one = run(0);
-      EXPECT_EQ(one.exit_code, 1) << one.err;
-    }
-    EXPECT_EQ(other.exit_code, 1) << other.err;
-    EXPECT_EQ(requests_in(here / "r", unheard).size(), 2U);
-    EXPECT_EQ(names_in(here / "r/records").size(), 6U);
-    if (pair % 10 > 0) continue;
-    const auto before = test::files_below(here / "r/records");
-    for (const std::size_t k : {0, 1}) EXPECT_EQ(run(k).exit_code, 1);
-    EXPECT_EQ(test::files_below(here / "r/records"), before);
-  }
-}
-
 }  // namespace
 }  // namespace isojam

@@ -12,6 +12,7 @@
 
 #include "tasks/io/file.hpp"
 #include "tasks/io/hash.hpp"
+#include "tasks/io/input_error.hpp"
 #include "tasks/io/parse.hpp"
 #include "tasks/io/sealed.hpp"
 #include "tasks/records/record.hpp"
@@ -119,6 +120,15 @@ std::map<std::string, std::string> results_below(const fs::path& directory) {
     if (name.rfind("records/", 0) == 0) content = pretty(without_checksum(parse_json(content, name)));
   }
   return files;
+}
+
+std::string refusal(const Json& manifest, const std::string& file) {
+  try {
+    parse_manifest(manifest.dump(), file);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
 }
 
 std::vector<ReplicateSpec> make_plan(const Manifest& manifest) {

@@ -70,6 +70,9 @@ std::map<std::string, std::string> results_below(const std::filesystem::path& di
 /// A manifest of real packings that take about one second each: 24 or 28 dodecahedra, minimised to large residuals.
 Json tiny_manifest();
 
+/// The text of the error of this manifest; empty if it is accepted.
+std::string refusal(const Json& manifest, const std::string& file = "m.json");
+
 /// Every specification of the plan of a manifest, in order.
 std::vector<ReplicateSpec> make_plan(const Manifest& manifest);
 

@@ -45,21 +45,6 @@ std::string refusal(const std::function<void()>& action) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__)
-TEST(Aggregate, KeepsOnlyTheValuesOfARecord) {
-  auto summary = summaries().front();
-  const auto row = aggregate(std::vector<RecordSummary>{summary}).rows.at(0);
-  const auto values_in = [](const Estimates& estimates) {
-    return std::count_if(estimates.begin(), estimates.end(), [](const Estimate& estimate) { return estimate.n > 0; });
-  };
-  auto values = values_in(row.all);
-  for (const auto& point : row.series) values += values_in(point.all);
-  constexpr int records = 2000;
-  Aggregation aggregation;
-  const auto before = mallinfo2().uordblks;
-  for (summary.replicate = 0; summary.replicate < records; ++summary.replicate) aggregation.add(summary);
-  const auto bytes = static_cast<long>((mallinfo2().uordblks - before) / records);
-  EXPECT_LT(bytes, 260 + static_cast<long>(sizeof(double)) * values) << values;
-}
 #endif
 
 TEST(Aggregate, OrderAndRepetitionDoNotMatter) {
@@ -70,17 +55,6 @@ TEST(Aggregate, OrderAndRepetitionDoNotMatter) {
     std::shuffle(records.begin(), records.end(), std::mt19937(trial));
     EXPECT_EQ(pretty(to_json(aggregate(records))), table);
   }
-}
-
-TEST(Aggregate, RowsAreInCanonicalOrder) {
-  const auto table = aggregate(summaries());
-  ASSERT_EQ(table.rows.size(), 8U);
-  std::vector<std::tuple<Mixture, int, double>> keys;
-  for (const auto& row : table.rows) {
-    keys.emplace_back(row.solid, row.particles, row.parameters.at("target_energy").get<double>());
-    EXPECT_EQ(row.replicates, 5);
-  }
-  EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end()));
 }
 
 TEST(Aggregate, CountsFailedAndFlagged) {
@@ -180,23 +154,6 @@ TEST(Aggregate, OnlyTheQuantityOfAStoppingRuleHasSteinsInterval) {
   EXPECT_EQ(json({4, 6, Goal{"percolates", 0.01}}).at("percolates"), fixed.at("percolates"));
 }
 
-TEST(Aggregate, ARowOfFailuresHasNoMean) {
-  auto outcome = test::made_up_outcome(plan()[0]);
-  outcome.failure = Failure{"place", "made up"};
-  const auto row = aggregate(std::vector{summary_of(outcome)}).rows.at(0);
-  EXPECT_EQ(row.failed, 1);
-  EXPECT_FALSE(row.estimates[0].mean);
-  EXPECT_FALSE(row.residual);
-}
-
-TEST(Aggregate, CombinesReplicatesOfOtherSeeds) {
-  auto records = summaries();
-  for (const auto& spec : plan([](Json& manifest) { manifest["seed"] = 8; })) {
-    records.push_back(summary_of(test::made_up_outcome(spec)));
-  }
-  for (const auto& row : aggregate(records).rows) EXPECT_EQ(row.replicates, 10);
-}
-
 TEST(Aggregate, RejectsOtherSettings) {
   auto records = summaries();
   const auto other = plan([](Json& manifest) { manifest["protocol"]["step_fraction"] = 0.125; });
@@ -230,27 +187,6 @@ TEST(Aggregate, RejectsTwoResultsOfOneReplicate) {
   records.push_back(summary_of(outcome));
   const auto said = refusal([&] { aggregate(records); });
   EXPECT_NE(said.find("two records of this replicate have different results"), std::string::npos) << said;
-}
-
-TEST(Record, WhatATableNeedsIsRequired) {
-  const auto record = make_record(test::made_up_outcome(plan()[0]));
-  for (const std::string pointer :
-       {"/schema", "/spec", "/spec/solid", "/spec/particles", "/spec/parameters", "/spec/replicate", "/spec/protocol",
-        "/provenance", "/status", "/timing", "/timing/cpu_seconds", "/result_digest",
-        "/flags", "/phi_j", "/phi_j/phi_j", "/phi_j/residual", "/nearest"}) {
-    auto damaged = record;
-    const Json::json_pointer at(pointer);
-    damaged.at(at.parent_pointer()).erase(at.back());
-    const auto said = refusal([&] { summarise_record(damaged, "r.json"); });
-    EXPECT_EQ(said, "r.json: " + pointer + ": the required key is missing");
-  }
-  for (const std::string pointer :
-       {"/schema", "/spec/solid", "/spec/particles", "/status", "/phi_j/phi_j", "/states/3/contacts/Z"}) {
-    auto damaged = record;
-    damaged[Json::json_pointer(pointer)] = Json::array();
-    const auto said = refusal([&] { summarise_record(damaged, "r.json"); });
-    EXPECT_EQ(said.rfind("r.json: " + pointer + ": a list is not accepted", 0), 0U) << said;
-  }
 }
 
 }  // namespace

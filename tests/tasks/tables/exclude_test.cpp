@@ -107,14 +107,6 @@ TEST_F(ExcludeTest, TheManifestChoosesAndTheCommandOverrides) {
   EXPECT_NE(wrong.err.find("did you mean \"crystalline\"?"), std::string::npos) << wrong.err;
 }
 
-TEST_F(ExcludeTest, AnotherChoiceIsStoredInTheDirectory) {
-  write("r");
-  const auto records = test::files_below(directory_ / "r" / "records");
-  write("r", [](Json& manifest) { manifest["exclude"] = Json::array(); });
-  EXPECT_EQ(test::files_below(directory_ / "r" / "records"), records);
-  EXPECT_EQ(table({"r"}).at("rows").at(0).at("phi_j").at("n"), 5);
-}
-
 TEST_F(ExcludeTest, DirectoriesThatDisagreeAreRejectedByName) {
   write("default");
   write("same", [](Json& manifest) { manifest["seed"] = 8; });

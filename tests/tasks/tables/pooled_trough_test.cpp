@@ -141,15 +141,6 @@ std::vector<RecordSummary> summaries_of(const std::vector<Outcome>& list) {
   return records;
 }
 
-TEST(PooledTrough, OfOnePackingGivesItsOwnNumbers) {
-  const auto table = aggregate(summaries_of(outcomes(1, 60)));
-  const Row& row = table.rows.at(0);
-  ASSERT_TRUE(row.trough && row.trough->cutoffs.has_all());
-  constexpr std::array own{"Z_ff_trough", "Z_ef_trough", "Z_l_trough", "C_trough", "C_trough_low", "C_trough_high"};
-  for (std::size_t i = 0; i < own.size(); ++i)
-    EXPECT_DOUBLE_EQ(*row.trough->estimates[i].mean, *row.estimates[*quantity_index(own[i])].mean) << own[i];
-}
-
 TEST(PooledTrough, OfASeriesIsInterpolated) {
   const auto records = summaries_of(outcomes(6, 40));
   const auto table = aggregate(records);
@@ -199,19 +190,6 @@ TEST(PooledTrough, IsInAllTables) {
     EXPECT_NE(to_csv(table, view).find(",C_pooled_mean,"), std::string::npos);
     EXPECT_NE(to_long_csv(table, view).find(",C_pooled,"), std::string::npos);
   }
-}
-
-TEST(PooledTrough, IsAbsentWithoutHistograms) {
-  auto list = outcomes(3, 40);
-  for (Outcome& outcome : list) {
-    for (Json& state : outcome.measured.at(Measure::contacts).states) state.at("contacts").erase("angle_bins");
-  }
-  const auto table = aggregate(summaries_of(list));
-  EXPECT_FALSE(table.rows.at(0).trough);
-  EXPECT_FALSE(to_json(table).at("rows").at(0).contains("pooled_trough"));
-  EXPECT_EQ(to_text(table).find("troughs"), std::string::npos);
-  EXPECT_EQ(to_csv(table).find("pooled"), std::string::npos);
-  EXPECT_TRUE(table.rows[0].estimates[*quantity_index("C_trough")].mean);
 }
 
 }  // namespace

@@ -106,29 +106,6 @@ TEST(RecordSchema, UnbalancedStatesAreFlagged) {
   EXPECT_EQ(violations("record", parse_json(sealed(make_record(outcome)), "record")), "");
 }
 
-TEST(RecordSchema, AFitToStatesOutsideItsWindowIsFlagged) {
-  auto outcome = test::made_up_outcome(Plan(parse_manifest(test::good_manifest().dump(), "manifest")).at(0, 0));
-  outcome.jam.phi_j->states = {3, 1};
-  EXPECT_EQ(flags_of(outcome), std::vector<Flag>{Flag::outside_fit_window});
-  EXPECT_EQ(violations("record", parse_json(sealed(make_record(outcome)), "record")), "");
-}
-
-TEST(RecordSchema, AcceptsRecords) {
-  const auto records = made_up_records();
-  EXPECT_EQ(records.at(1).at("flags"), Json{"classes_undecided"});
-  EXPECT_TRUE(test::nearest_of(records.at(1)).at("contacts").at("Z_ff").is_null());
-  EXPECT_EQ(records.at(0).at("flags"), Json{"crystalline"});
-  EXPECT_EQ(records.at(2).at("status"), "failed");
-  EXPECT_EQ(records.at(2).at("path").at(0).at("residual_reason"), "infinite");
-  for (const auto& record : records) EXPECT_EQ(violations("record", record), "") << record.dump(1);
-}
-
-TEST(RecordSchema, ADoneReplicateHasNoFailure) {
-  auto both = made_up_records().front();
-  both["failure"] = {{"where", "jam"}, {"why", "because"}};
-  EXPECT_THROW(summarise_record(both, "record"), InputError);
-}
-
 /// Outcome of a replicate with measured vibrations and moduli.
 Outcome with_scaling() {
   auto manifest = test::good_manifest();

@@ -120,35 +120,5 @@ TEST(Stopping, EqualValuesMeetNoGoal) {
   EXPECT_EQ(advance.first.size(), 6U) << "the first check at which values differ";
 }
 
-/// Percentage of intervals at the end of the rule that contain the mean of a normal distribution with the standard
-/// deviation 1.
-double coverage(const Replicates& rule, int trials) {
-  int covered = 0;
-  double used = 0;
-  for (int k = 0; k < trials; ++k) {
-    const auto values = normal_values(static_cast<std::uint64_t>(k) + 1000, rule.max);
-    const auto advance = advance_of(rule, values);
-    double sum = 0;
-    for (int i = 0; i < advance.wanted; ++i) sum += *values[static_cast<std::size_t>(i)];
-    covered += std::abs(sum / advance.wanted) <= *advance.half_width;
-    used += static_cast<double>(advance.wanted) / trials;
-  }
-  const double percent = 100.0 * covered / trials;
-  std::printf("min %d, max %d, goal %.2f: coverage %.1f %%, %.0f replicates\n", rule.min, rule.max,
-              rule.goal->half_width, percent, used);
-  return percent;
-}
-
-TEST(Stopping, TheIntervalContainsTheMeanAsOftenAsStated) {
-  for (const int min : {2, 4, 8, 16}) {
-    // With a known standard deviation, the goals need twice and six times as many replicates as `min`.
-    for (const double ratio : {2.0, 6.0}) {
-      const double percent = coverage(rule(min, 6 * min, 1.96 / std::sqrt(ratio * min)), 4000);
-      EXPECT_GT(percent, 94);
-      EXPECT_LT(percent, 96);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace isojam

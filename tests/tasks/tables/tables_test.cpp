@@ -131,13 +131,6 @@ TEST(Tables, LatexEscapesEverySpecialCharacter) {
   EXPECT_NE(text.find("& one, \"two\"?three &"), std::string::npos) << text;
 }
 
-TEST(Tables, TextContainsNoControlCharacters) {
-  const auto text = to_text(hostile_table());
-  EXPECT_NE(text.find(" one, \"two\"?three "), std::string::npos) << text;
-  EXPECT_EQ(text.find('\x1B'), std::string::npos) << text;
-  EXPECT_EQ(split(text, "\n").size(), split(to_text(table()), "\n").size()) << text;
-}
-
 TEST(Tables, NoTwoColumnsHaveOneName) {
   auto swept = table();
   for (auto& row : swept.rows) row.parameters = Json{{"residual", 1e-6}, {"target_energy", 1e-5}};
@@ -151,20 +144,6 @@ TEST(Tables, NoTwoColumnsHaveOneName) {
   }
   EXPECT_EQ(to_text(swept).rfind("solid             N   minimiser.residual   target_energy", 0), 0U) << to_text(swept);
   EXPECT_NE(to_latex(swept).find("& minimiser.residual & target\\_energy &"), std::string::npos) << to_latex(swept);
-}
-
-TEST(Tables, OtherGroupsFollowIfTheyWereMeasured) {
-  auto measured = table();
-  const auto q6 = quantity_index("Q6").value();
-  EXPECT_EQ(to_text(measured).find("Q6"), std::string::npos);
-  measured.rows[1].estimates[q6] = estimate({2.5e-7, 3.5e-7}, 1);
-  const auto text = to_text(measured);
-  EXPECT_NE(text.find("\norder: "), std::string::npos) << text;
-  // Mean 3e-7, sd 7.07e-8, t 12.71 and n 2 give the half width 6.35e-7.
-  EXPECT_NE(text.find("(3.00 ± 6.35)e-07"), std::string::npos) << text;
-  EXPECT_EQ(text.find("clusters"), std::string::npos) << text;
-  EXPECT_TRUE(to_json(measured).at("rows").at(1).contains("Q6"));
-  EXPECT_FALSE(to_json(measured).at("rows").at(0).contains("Q6"));
 }
 
 TEST(Tables, ExactCountsAreWholeNumbersAndOneSmallNumberHasNoBrackets) {
@@ -265,18 +244,6 @@ TEST(Tables, FitTheRequestedWidth) {
   }
   EXPECT_EQ(to_text(table(), View::nearest, {true, 1000, {}, {}}), to_text(table()))
       << "narrow tables stay as they are";
-}
-
-TEST(Tables, AreTransposedIfTheRowsAreFew) {
-  const auto one = to_text(wide_table(1), View::nearest, {false, 80, {}, {}});
-  EXPECT_EQ(one.rfind("solid", 0), 0U);
-  EXPECT_NE(one.find("\nphi_j           0.6812 ± 0.0037\n"), std::string::npos) << one;
-  auto table = wide_table(30);
-  for (auto& row : table.rows) row.estimates[*quantity_index("phi_0")] = {};
-  const auto many = to_text(table, View::nearest, {false, 80, {}, {}});
-  EXPECT_EQ(many.rfind("solid         N   target_energy", 0), 0U) << "divided, because this needs fewer lines\n"
-                                                                  << many;
-  EXPECT_NE(many.find("\n\nsolid         N   target_energy"), std::string::npos) << many;
 }
 
 TEST(Tables, DividedColumnsRepeatTheirKeys) {
