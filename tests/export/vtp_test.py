@@ -1,5 +1,6 @@
 """Tests VTP and PVD files with VTK as their reader."""
 
+import itertools
 import xml.etree.ElementTree
 
 import numpy
@@ -41,6 +42,43 @@ class Picture:
             own = corners[offsets[f]:offsets[f + 1]] - particle * self.corners.shape[1]
             self.faces[particle].append(list(own))
         self.centres = self.corners.mean(axis=1)  # of a Platonic solid
+
+    def normals(self, particle):
+        corners = self.corners[particle]
+        normals = [numpy.cross(corners[f[1]] - corners[f[0]], corners[f[2]] - corners[f[1]])
+                   for f in self.faces[particle]]
+        return numpy.array([normal / numpy.linalg.norm(normal) for normal in normals])
+
+    def edges(self, particle):
+        pairs = {tuple(sorted(pair)) for f in self.faces[particle] for pair in zip(f, f[1:] + f[:1])}
+        return numpy.array([self.corners[particle][a] - self.corners[particle][b] for a, b in sorted(pairs)])
+
+
+def apart(a, b, normals, edges_a, edges_b):
+    """True if the normal of a face, or a common perpendicular of two edges, separates the corners."""
+    crosses = numpy.cross(edges_a[:, None, :], edges_b[None, :, :]).reshape(-1, 3)
+    lengths = numpy.linalg.norm(crosses, axis=1)
+    keep = lengths > 1e-9 * lengths.max()  # parallel edges have no common perpendicular; normals see to them
+    axes = numpy.vstack([normals, crosses[keep] / lengths[keep, None]])
+    on_a, on_b = axes @ a.T, axes @ b.T
+    return bool(((on_a.max(axis=1) < on_b.min(axis=1)) | (on_b.max(axis=1) < on_a.min(axis=1))).any())
+
+
+def count_contacts(picture, translations):
+    """Number of contacts of each particle, including contacts with these images."""
+    n = len(picture.corners)
+    reach = 2 * numpy.linalg.norm(picture.corners[0] - picture.centres[0], axis=1).max()
+    normals = [picture.normals(i) for i in range(n)]
+    edges = [picture.edges(i) for i in range(n)]
+    counts = numpy.zeros(n, dtype=int)
+    for i, j in itertools.combinations(range(n), 2):
+        between = picture.centres[j] - picture.centres[i]
+        near = translations[numpy.linalg.norm(between + translations, axis=1) < reach]
+        for shift in near:
+            if not apart(picture.corners[i], picture.corners[j] + shift, numpy.vstack([normals[i], normals[j]]),
+                         edges[i], edges[j]):
+                counts[[i, j]] += 1
+    return counts
 
 
 class Vtp(check.RoundTrip):
