@@ -1,29 +1,16 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/names/enum_names.hpp"
+#include "tasks/extras/export/formats.hpp"
 #include "tasks/io/console.hpp"
 #include "tasks/io/exit_codes.hpp"
 #include "tasks/io/place.hpp"
 #include "tasks/records/requests.hpp"
 
 namespace isojam {
-
-/// Formats of an export. The first three are for packings. The next three are tables with one row per contact,
-/// replicate or state. The last one is a JSON object with the shapes of the solids.
-enum class Exported { gsd, vtp, xyz, contacts, replicates, states, solids };
-template <>
-inline constexpr std::array enum_names<Exported>{EnumName{Exported::gsd, "gsd"},
-                                                 EnumName{Exported::vtp, "vtp"},
-                                                 EnumName{Exported::xyz, "xyz"},
-                                                 EnumName{Exported::contacts, "contacts"},
-                                                 EnumName{Exported::replicates, "replicates"},
-                                                 EnumName{Exported::states, "states"},
-                                                 EnumName{Exported::solids, "solids"}};
 
 struct ExportArguments {
   std::string directory;  ///< results directory

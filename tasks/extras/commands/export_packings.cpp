@@ -6,7 +6,6 @@
 #include <system_error>
 
 #include "tasks/extras/commands/export.hpp"
-#include "tasks/extras/export/exported_files.hpp"
 #include "tasks/extras/export/stored_states.hpp"
 #include "tasks/io/atomic_file.hpp"
 #include "tasks/io/file.hpp"
@@ -17,21 +16,9 @@ namespace isojam {
 namespace fs = std::filesystem;
 namespace {
 
-std::string_view extension_of(ExportFormat format, bool collection) {
-  switch (format) {
-    case ExportFormat::gsd: return ".gsd";
-    case ExportFormat::xyz: return ".xyz";
-    case ExportFormat::vtp: break;
-  }
-  return collection ? ".pvd" : ".vtp";
-}
-
-ExportFormat format_of(Exported what) {
-  switch (what) {
-    case Exported::vtp: return ExportFormat::vtp;
-    case Exported::xyz: return ExportFormat::xyz;
-    default: return ExportFormat::gsd;
-  }
+std::string extension_of(const ExportArguments& arguments) {
+  const bool collection = arguments.what == Exported::vtp && arguments.path;
+  return collection ? ".pvd" : "." + std::string(to_string(arguments.what));
 }
 
 void warn_of_undecided(const std::string& name, const std::vector<ExportFrame>& frames, Console& console) {
@@ -52,7 +39,7 @@ void export_replicate(const ExportArguments& arguments, const Requests& requests
   for (auto& state : stored_states(arguments.directory, held, arguments.path))
     frames.push_back(make_frame(std::move(state.packing), state.delta_phi, arguments.contacts));
   warn_of_undecided(name, frames, console);
-  auto files = exported_files(frames, format_of(arguments.what), arguments.path, output);
+  auto files = exported_files(frames, arguments.what, arguments.path, output);
   if (is_stream(output)) std::erase_if(files, [&](const ExportedFile& file) { return file.path != output; });
   if (files.empty())
     throw UsageError(
@@ -78,8 +65,8 @@ ExitCode export_packings(const ExportArguments& arguments, Console& console) {
   fs::create_directories(arguments.output, error);
   if (error) throw FileError::of_error(arguments.output, "cannot be created", error);
   for (const auto& name : names) {
-    const auto file = name + std::string(extension_of(format_of(arguments.what), arguments.path));
-    export_replicate(arguments, requests, name, fs::path(arguments.output) / file, console);
+    const auto output = fs::path(arguments.output) / (name + extension_of(arguments));
+    export_replicate(arguments, requests, name, output, console);
   }
   return ExitCode::done;
 }

@@ -5,7 +5,6 @@
 #include "tasks/extras/commands/pages.hpp"
 #include "tasks/extras/page/page.hpp"
 #include "tasks/extras/report/gather.hpp"
-#include "tasks/extras/report/report_page.hpp"
 #include "tasks/io/atomic_file.hpp"
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/standard_streams.hpp"

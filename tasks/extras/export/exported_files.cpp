@@ -1,5 +1,3 @@
-#include "tasks/extras/export/exported_files.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -74,15 +72,15 @@ std::vector<ExportedFile> xyz_files(std::span<const ExportFrame> frames, const f
 
 }  // namespace
 
-std::vector<ExportedFile> exported_files(std::span<const ExportFrame> frames, ExportFormat format, bool collection,
+std::vector<ExportedFile> exported_files(std::span<const ExportFrame> frames, Exported format, bool collection,
                                          const fs::path& output) {
   check_frames(frames);
   switch (format) {
-    case ExportFormat::gsd: return {{output, gsd_file(frames)}};
-    case ExportFormat::xyz: return xyz_files(frames, output);
-    case ExportFormat::vtp: break;
+    case Exported::gsd: return {{output, gsd_file(frames)}};
+    case Exported::vtp: return vtp_files(frames, collection, output);
+    case Exported::xyz: return xyz_files(frames, output);
+    default: return {};
   }
-  return vtp_files(frames, collection, output);
 }
 
 }  // namespace isojam

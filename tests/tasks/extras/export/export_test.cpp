@@ -2,14 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 
-#include "tasks/extras/export/exported_files.hpp"
 #include "tasks/extras/export/formats.hpp"
 #include "tasks/io/file.hpp"
 #include "tasks/io/parse.hpp"
 #include "tasks/io/sealed.hpp"
-#include "tasks/packings/gsd_layer.hpp"
 #include "tasks/packings/packing_json.hpp"
 #include "tasks/records/store.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
@@ -28,37 +25,13 @@ std::vector<ExportFrame> made_up_frames(SolidKind kind = SolidKind::dodecahedron
   return {make_frame(strained_to(loose, 0.7), 0.02), make_frame(strained_to(loose, 0.69), 0.01)};
 }
 
-std::vector<ExportFrame> through_json(const std::vector<ExportFrame>& frames) {
-  std::vector<ExportFrame> result;
-  for (const auto& frame : frames) {
-    const auto json = parse_json(pretty(to_json(frame.packing)), "p");
-    result.push_back(make_frame(read_packing(JsonPlace(json, "p")), frame.delta_phi));
-  }
-  return result;
-}
-
-TEST(ExportFormats, TheSameFramesGiveTheSameBytes) {
-  const auto frames = made_up_frames(), again = through_json(frames);
-  for (const auto format : {ExportFormat::gsd, ExportFormat::vtp, ExportFormat::xyz}) {
-    const auto files = exported_files(frames, format, true, "x"), same = exported_files(again, format, true, "x");
-    ASSERT_EQ(files.size(), same.size());
-    for (std::size_t k = 0; k < files.size(); ++k) {
-      EXPECT_EQ(files[k].path, same[k].path);
-      EXPECT_TRUE(files[k].bytes == same[k].bytes) << files[k].path;
-      if (format == ExportFormat::gsd) continue;
-      for (const auto* word : {"nan", "inf"}) EXPECT_EQ(files[k].bytes.find(word), std::string::npos) << files[k].path;
-    }
-  }
-  EXPECT_NE(xyz_file(frames), xyz_file(std::span(frames).first(1)));
-}
-
 TEST(ExportFormats, WithoutAJammingPointFramesHaveNumbersForTimes) {
   auto frames = made_up_frames();
   EXPECT_NE(gsd_file(frames).find("delta_phi"), std::string::npos);
   frames[1].delta_phi.reset();
   EXPECT_EQ(gsd_file(frames).find("delta_phi"), std::string::npos) << "or the second frame would inherit the first's";
   EXPECT_EQ(vtp_file(frames[1]).find("delta_phi"), std::string::npos);
-  const auto files = exported_files(frames, ExportFormat::vtp, true, "a/b.pvd");
+  const auto files = exported_files(frames, Exported::vtp, true, "a/b.pvd");
   ASSERT_EQ(files.size(), 3U);
   EXPECT_EQ(files[0].path, "a/b_0000.vtp");
   EXPECT_EQ(files[2].path, "a/b.pvd") << "last, as it names the others";
@@ -68,58 +41,6 @@ TEST(ExportFormats, WithoutAJammingPointFramesHaveNumbersForTimes) {
 TEST(ExportFormats, NamesAreEscapedInCollections) {
   const auto xml = pvd_file(std::vector<TimedFile>{{"a&\"<b>.vtp", 0.5}});
   EXPECT_NE(xml.find("file=\"a&amp;&quot;&lt;b&gt;.vtp\""), std::string::npos) << xml;
-}
-
-template <class T>
-T at(const std::string& bytes, std::size_t offset) {
-  T value;
-  std::memcpy(&value, bytes.data() + offset, sizeof value);
-  return value;
-}
-
-TEST(GsdLayer, TheIndexIsInOrderAndPointsAtTheData) {
-  const std::vector<std::int32_t> two{1, -2};
-  const std::vector<double> six{1, 2, 3, 4, 5, 6};
-  const std::vector<std::string> text{"text"}, other{"other"};
-  const std::vector<std::vector<GsdChunk>> frames{
-      {gsd_chunk("a", std::span(two)), gsd_chunk("longer name", std::span(six), 3), gsd_chunk("c", std::span(text))},
-      {gsd_chunk("c", std::span(other)), gsd_chunk("a", std::span(two))}};
-  const auto bytes = gsd_bytes({"me", "scheme", 3, 7}, frames);
-  const auto index = at<std::uint64_t>(bytes, 8), entries = at<std::uint64_t>(bytes, 16);
-  const auto names = at<std::uint64_t>(bytes, 24), name_blocks = at<std::uint64_t>(bytes, 32);
-  EXPECT_EQ(at<std::uint64_t>(bytes, 0), 0x65DF65DF65DF65DFU);
-  EXPECT_EQ(at<std::uint32_t>(bytes, 40), 3U << 16 | 7U);
-  EXPECT_EQ(at<std::uint32_t>(bytes, 44), 2U << 16);
-  EXPECT_EQ(std::string(bytes.data() + 48), "me");
-  EXPECT_EQ(std::string(bytes.data() + 112), "scheme");
-  ASSERT_EQ(entries, 5U);
-  ASSERT_EQ(index + 32 * entries, bytes.size());
-  EXPECT_EQ(names + 64 * name_blocks, index);
-  EXPECT_EQ(bytes.substr(names, 16), std::string("a\0longer name\0c\0", 16));
-  const std::vector<std::pair<std::uint64_t, int>> order{{0, 0}, {0, 1}, {0, 2}, {1, 0}, {1, 2}};
-  const std::vector<std::string> data{frames[0][0].data, frames[0][1].data, frames[0][2].data, frames[1][1].data,
-                                      frames[1][0].data};
-  for (std::size_t k = 0; k < entries; ++k) {
-    const auto entry = index + 32 * k;
-    EXPECT_EQ(at<std::uint64_t>(bytes, entry), order[k].first) << k;
-    EXPECT_EQ(at<std::uint16_t>(bytes, entry + 28), order[k].second) << k;
-    EXPECT_EQ(bytes.substr(at<std::uint64_t>(bytes, entry + 16), data[k].size()), data[k]) << k;
-  }
-  EXPECT_EQ(at<std::uint64_t>(bytes, index + 32 + 8), 2U) << "rows";
-  EXPECT_EQ(at<std::uint32_t>(bytes, index + 32 + 24), 3U) << "columns";
-}
-
-TEST(GsdLayer, InvalidChunksAreRejected) {
-  const std::vector<double> four{1, 2, 3, 4};
-  const auto good = gsd_chunk("a", std::span(four), 2);
-  const auto refused = [](const GsdIdentity& identity, const std::vector<GsdChunk>& chunks) {
-    EXPECT_THROW(gsd_bytes(identity, std::vector<std::vector<GsdChunk>>{chunks}), std::invalid_argument);
-  };
-  EXPECT_NO_THROW(gsd_bytes({"me", "s"}, std::vector<std::vector<GsdChunk>>{{good}}));
-  refused({"me", "s"}, {good, good});
-  refused({"me", "s"}, {gsd_chunk("b", std::span(four), 3)});
-  refused({"me", "s"}, {gsd_chunk("b", std::span<const double>())});
-  refused({std::string(64, 'x'), "s"}, {good});
 }
 
 /// A results directory with made-up replicates whose decompressions were kept. The last replicate failed.
