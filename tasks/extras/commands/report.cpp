@@ -79,7 +79,7 @@ ExitCode report(const ReportArguments& arguments, Console& console) {
   // The page links to a chart in the same folder. The link does not work if the page is sent to somebody alone.
   const Json more{{"viewable", {{"most_particles", options.most_particles}, {"chosen", choice.size()}}},
                   {"chart", fs::exists(output.parent_path() / "chart.html")}};
-  write_output(output, report_page(data.text(views, more)));
+  write_output(output, assembled_page(report_parts(), data.text(views, more)));
   print(output.string() + "\n");
   return ExitCode::done;
 }

@@ -9,14 +9,16 @@
 #include "engine/analysis/alignment/empirical_cdf.hpp"
 #include "engine/packing/energy.hpp"
 #include "engine/vibration/spectrum.hpp"
+#include "tasks/extras/page/page.hpp"
 #include "tasks/extras/report/angle_curves.hpp"
+#include "tasks/extras/report/distributions.hpp"
 #include "tasks/extras/report/gather.hpp"
-#include "tasks/extras/report/report_page.hpp"
 #include "tasks/io/file.hpp"
 #include "tasks/records/record.hpp"
 #include "tasks/records/store.hpp"
 #include "tasks/records/summary.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
+#include "tests/tasks/support/packings.hpp"
 #include "tests/tasks/support/support.hpp"
 
 namespace isojam {
@@ -82,13 +84,18 @@ std::string embedded_text(const std::string& page) {
   return page.substr(from, page.find("</script>", from) - from);
 }
 
+Packing dense_packing() {
+  RandomStream random{1, 2, 3, 4};
+  return random_packing(platonic(SolidKind::octahedron), 40, 0.6, random);
+}
+
 TEST(ReportPage, DataAreReadAsWritten) {
   const std::string hostile = "</script><script>alert(1)</script><!-- <b>\" \\ @data@ @scripts@ & \u2028";
   auto results = results_of(plan(2));
   results.manifest["name"] = hostile;
   results.replicates[0].record["flags"] = {hostile};
   results.replicates[1].record["provenance"]["compiler"] = hostile;
-  const auto page = report_page(text_of(results));
+  const auto page = assembled_page(report_parts(), text_of(results));
   const auto data = Json::parse(embedded_text(page));
   EXPECT_EQ(data, report_data(results));
   EXPECT_EQ(data["manifest"]["name"], hostile);
@@ -111,7 +118,7 @@ TEST(ReportData, SurvivesAnyManifest) {
 }
 
 TEST(ReportPage, KeepsTheNoticesOfItsLibraries) {
-  const auto page = report_page(text_of(results_of(plan(1))));
+  const auto page = assembled_page(report_parts(), text_of(results_of(plan(1))));
   for (const auto* text : {"University of Washington Interactive Data Lab", "three.js authors", "Mike Bostock"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
 }
@@ -128,54 +135,6 @@ TEST(ReportData, ExtrapolatesFromPhiJThroughItsStates) {
     EXPECT_NEAR(to[1], 0.04, 0.04 * 1e-12) << replicate["name"];
     EXPECT_NEAR(to[0] - from[0], to[1], to[1] * 1e-10) << replicate["name"];
   }
-}
-
-TEST(ReportData, ShowsThePaperOnlyForItsSystems) {
-  const auto data = report_data(results_of(plan(1)));
-  ASSERT_EQ(data["rows"].size(), 4U);
-  for (const auto& row : data["rows"]) {
-    const auto expected = row["particles"] == 200 ? Json(nullptr) : Json(row["solid"] == "octahedron" ? .6796 : .629);
-    EXPECT_EQ(row["paper"].is_null() ? row["paper"] : row["paper"]["phi_j"], expected) << row["label"];
-  }
-}
-
-TEST(ReportData, FailedReplicatesAreCountedAndHaveTheirReasons) {
-  const auto specs = plan(2);
-  const auto some = report_data(results_of(specs, [](Outcome& o) {
-    if (o.spec.replicate == 1) fail(o);
-  }));
-  EXPECT_EQ(some["rows"][0]["failed"], 1);
-  EXPECT_EQ(some["replicates"][1]["failure"]["why"], "made up");
-  const auto all = results_of(specs, fail);
-  const auto data = report_data(all);
-  EXPECT_TRUE(data["rows"][0]["phi_j"]["mean"].is_null());
-  EXPECT_TRUE(data["replicates"][0]["line"].is_null());
-  EXPECT_TRUE(choose_views(viewable(all)).empty());
-}
-
-TEST(ReportData, StatesWhichResidualWasSwept) {
-  auto manifest = test::good_manifest();
-  manifest["sweep"]["residual"] = {1e-5, 1e-6};
-  manifest["sweep"]["final_distance"] = {0.01};
-  const auto data = report_data(results_of(test::make_plan(parse_manifest(manifest.dump(), "m"))));
-  EXPECT_EQ(data["rows"][0]["label"], "dodecahedron, N = 64, final_distance 0.01, minimiser.residual 1e-06");
-  EXPECT_EQ(data.value("parameters", Json()),
-            (Json{{"final_distance", "final_distance"}, {"residual", "minimiser.residual"}}));
-}
-
-TEST(ReportData, StatesWhichMeasuresCanBeAdded) {
-  auto results = results_of(plan(1));
-  results.manifest = Json{{"keep_path", false}};
-  EXPECT_FALSE(report_data(results)["keeps_paths"].get<bool>());
-  results.manifest["keep_path"] = true;
-  const auto data = report_data(results);
-  EXPECT_TRUE(data["keeps_paths"].get<bool>());
-  std::set<std::string> together;
-  for (const auto* list : {"measures", "addable"}) {
-    for (const auto& name : data[list]) EXPECT_TRUE(together.insert(name).second) << name;
-  }
-  EXPECT_EQ(together, std::set<std::string>(all_names<Measure>.begin(), all_names<Measure>.end()));
-  EXPECT_GT(data["measures"].size() * data["addable"].size(), 0U);
 }
 
 TEST(ReportData, MeansAndPoolsOmitExcludedReplicates) {
@@ -198,6 +157,41 @@ TEST(ReportData, MeansAndPoolsOmitExcludedReplicates) {
   expect({"goal_not_reached", "crystalline"}, {false, true, true});
   results.manifest["exclude"] = Json::array();
   expect(Json::array(), {false, false, false});
+}
+
+/// The record of a replicate with so many angles of both kinds and a cut-off, all in radians.
+void put_angles(Json& record, double angle, double cutoff) {
+  auto& contacts = record["states"][record["nearest"].get<std::size_t>()]["contacts"];
+  for (const std::string kind : {"face_face", "edge_face"}) {
+    contacts["angles"][kind] = {angle, 2 * angle};
+    contacts[kind + "_fit"]["cutoff"] = cutoff;
+  }
+}
+
+TEST(ReportCurves, AnglesAreInDegrees) {
+  auto results = results_of(plan(1));
+  for (auto& replicate : results.replicates) put_angles(replicate.record, 0.1, 0.5);
+  const auto angles = report_data(results)["rows"][0]["angles"]["face_face"];
+  EXPECT_NEAR(angles["cutoff"].get<double>(), 0.5 * 180 / std::numbers::pi, 1e-12);
+  EXPECT_NEAR(angles["cdf"].back()[0].get<double>(), 0.2 * 180 / std::numbers::pi, 1e-4);
+}
+
+TEST(ReportCurves, DensitiesOfForcesHaveTheNormOne) {
+  const Json state = measure(Measure::gaps, test::single_state(dense_packing())).states.at(0);
+  Distributions distributions;
+  for (int k = 0; k < 2; ++k) distributions.add(state, std::nullopt);
+  const Json curves = distributions.json().at("forces").at("curves");
+  const double half = 0.5 / Histogram::per_decade;
+  for (const auto& names : {std::vector{"all"}, {"face_face", "edge_face", "lower_order"}}) {
+    double norm = 0;
+    for (const auto* name : names) {
+      for (const auto& point : curves.at(name)) {
+        const double middle = point[0].get<double>();
+        norm += point[1].get<double>() * middle * (std::pow(10, half) - std::pow(10, -half));
+      }
+    }
+    EXPECT_NEAR(norm, 1, 1e-3) << names.front();
+  }
 }
 
 TEST(ReportCurves, ThinnedCdfsAreExactWhereTheyHaveAPoint) {
@@ -251,11 +245,6 @@ TEST(ReportViews, OneOfEveryPointThenMoreIfThereIsRoom) {
     EXPECT_LE(all, std::max(most, 600)) << "one of every point, 600 particles, and what there is room for";
     EXPECT_EQ(chosen.size(), most < 700 ? 4U : most < 1000 ? 6U : most < 1100 ? 7U : 12U) << most;
   }
-}
-
-Packing dense_packing() {
-  RandomStream random{1, 2, 3, 4};
-  return random_packing(platonic(SolidKind::octahedron), 40, 0.6, random);
 }
 
 TEST(ReportViews, ShowThePackingItself) {
