@@ -81,7 +81,8 @@ struct ExportedFile {
 ///   no Δφ, the time of every frame is its index.
 ///
 /// For vtp, frames with a contact network have a second set of files, whose names end in -contacts before the
-/// extension. Other formats are not of packings and give no files. Throws UsageError if `output` for xyz has the extension .obj.
+/// extension. Other formats are not of packings and give no files. Throws UsageError if `output` for xyz has the
+/// extension .obj.
 std::vector<ExportedFile> exported_files(std::span<const ExportFrame> frames, Exported format, bool collection,
                                          const std::filesystem::path& output);
 
