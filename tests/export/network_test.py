@@ -15,7 +15,7 @@ import results
 
 HEADER = ("replicate,state,delta_phi,a,b,image_x,image_y,image_z,volume,area,force_x,force_y,force_z,attack_x,attack_y,"
           "attack_z,normal_x,normal_y,normal_z,torque_a_x,torque_a_y,torque_a_z,torque_b_x,torque_b_y,torque_b_z,class,"
-          "kind,theta_ef,theta_ff,depth,solid_a,solid_b,x")
+          "kind,theta_ef,theta_ff,depth,solid_a,solid_b,x,gap")
 CLASSES = {"lower_order": 1, "edge_face": 2, "face_face": 3, "": -1}
 TYPES = ["face_face", "edge_face", "lower_order", "undecided"]
 KINDS = ["vertex_face", "edge_edge", "edge_face", "face_face", "compound"]

@@ -22,7 +22,7 @@ class WithoutPages(unittest.TestCase):
                           "\n  report and chart in a browser: "):
                 self.assertIn(words, ended.stderr)
             targets = run("ninja", "-C", here, "-t", "targets", "all").stdout
-            for built in ("isojam", "solve_tests", "quad_packing_tests", "tasks_tests"):
+            for built in ("isojam", "solve_tests", "packing_tests", "tasks_tests"):
                 self.assertIn(f"\n{built}: ", targets)
             for left_out in ("isojam_chart", "isojam_schema_check", "atlas_tests"):
                 self.assertNotIn(left_out, targets)
