@@ -20,9 +20,8 @@ PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-d
                     nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev libjs-vega libjs-three
 LINT_PACKAGES    := clang-format clang-tidy
 LIBCXX_PACKAGES  := clang-19 libc++-19-dev libc++abi-19-dev
-TEST_PACKAGES    := $(PROGRAM_PACKAGES) libgtest-dev libvalijson-dev python3 python3-gsd \
-                    python3-ase python3-vtk9 python3-numpy python3-pandas python3-matplotlib python3-scipy python3-yaml groff-base \
-                    zsh fish
+TEST_PACKAGES    := $(PROGRAM_PACKAGES) libgtest-dev libvalijson-dev python3 python3-ase python3-gsd python3-vtk9 \
+                    python3-numpy python3-pandas python3-matplotlib python3-scipy python3-yaml groff-base zsh fish
 # Where there is no browser its tests say that they are skipped; everything else is tested.
 BROWSER_PACKAGES := chromium chromium-driver fonts-dejavu-core python3-selenium mkdocs
 # Debian 12 has clang 14, Debian 13 has clang 19.
