@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <system_error>
 
@@ -100,9 +101,13 @@ RecordedReplicate read_record(const fs::path& directory, const std::string& name
     if (const auto digest = kept ? own : result_digest(replicate.record); digest != own)
       throw InputError(
           {file, "/result_digest", "the record was changed: its result does not match its digest", digest, ""});
+    // Nothing was left out of a record that another program wrote in one line.
     constexpr std::string_view nearest = "\n  \"nearest\": ";
-    if (kept && kept->states == States::nearest && !replicate.summary.failed)
-      replicate.nearest = std::stoul(text.substr(text.find(nearest) + nearest.size(), 8));
+    const auto at = text.find(nearest);
+    std::size_t index = 0;
+    if (kept && kept->states == States::nearest && at != std::string::npos &&
+        std::from_chars(&text[at + nearest.size()], &text.back(), index).ec == std::errc())
+      replicate.nearest = index;
     return replicate;
   });
 }
