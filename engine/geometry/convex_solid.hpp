@@ -42,15 +42,15 @@ struct Edge {
   int left = 0, right = 0;  ///< indices of the two faces
 };
 
-/// An edge in the format that the contact loop needs. Each segment of the loop lies on a face i of solid A and a face j
-/// of solid B, a pair of faces with the number 32i + j. Where an edge leaves the other solid, one segment of the loop
-/// begins and another one ends; the record stores the numbers of the face pairs of both, with 0 in place of the face
-/// that the edge crosses.
+/// An edge in the format for the contact loop, in which the surfaces of two solids A and B intersect. Each segment of
+/// the loop lies on a face i of A and a face j of B, and this pair of faces has the number 32i + j. Two segments of the
+/// loop meet where an edge leaves the other solid. The record stores the numbers of both face pairs, with 0 in place of
+/// the face of the other solid, which depends on the poses.
 struct EdgeRecord {
   std::uint8_t tail, head, left, right;  ///< indices of the vertices and faces of the edge
   std::uint16_t tail_at, head_at;        ///< SolidArrays::at() of the two vertices
-  /// Numbers of the face pairs of both segments. pairs[0] is used if the edge belongs to A: 32·left + 2^16·32·right.
-  /// pairs[1] is used if it belongs to B: right + 2^16·left. If a solid of the pair has more than narrow_edges edges,
+  /// Numbers of the face pairs of both segments. pairs[0] is for an edge of A: 32·left + 2^16·32·right.
+  /// pairs[1] is for an edge of B: right + 2^16·left. If a solid of the pair has more than narrow_edges edges,
   /// Numbers::pairs() (overlap/loop_numbers.hpp) replaces the factor 32 by a larger one.
   std::uint32_t pairs[2];
   std::uint64_t faces;  ///< set of the two faces, as bits; 0 if the solid has more than SolidArrays::word_edges edges
@@ -72,12 +72,12 @@ struct alignas(32) Parts {
   }
 };
 
-/// A solid as arrays of numbers for the computation of overlaps. The arrays of vertices and of faces are filled up to a
-/// multiple of four elements, with copies of the first vertex, and with planes 0·y = far, which have every point on
-/// their inner side.
+/// A solid as arrays of numbers for the computation of overlaps. The arrays are filled up to a multiple of four
+/// elements: those of vertices with copies of the first vertex, and those of faces with planes 0·y = far, which have
+/// every point on their inner side.
 struct SolidArrays {
   static constexpr int max_edges = 192;  ///< largest number of edges
-  /// largest number of vertices, because at least three edges end at every vertex
+  /// largest number of vertices, which follows from max_edges, because at least three edges end at every vertex
   static constexpr int max_vertices = 2 * max_edges / 3;
   static constexpr int max_faces = 2 * max_edges / 3;  ///< largest number of faces; every face has at least three edges
   static constexpr int word_edges = 64;  ///< largest number of edges for which a set of edges fits into one 64-bit word
@@ -156,9 +156,9 @@ class ConvexSolid {
   double diameter() const { return diameter_; }               ///< largest distance between two vertices
   /// Radius of gyration about an axis, R = sqrt(I/m), where I is the mean principal moment of inertia and m the mass.
   double gyration_radius() const { return gyration_radius_; }
-  /// Length, independent of scale(), relative to which small parts of an overlap are computed in double-double
-  /// (overlap/small_distances.hpp): the inradius, or four circumradii for a solid with more than narrow_edges edges,
-  /// which may have very flat edges and blunt vertices.
+  /// Length that sets which parts of an overlap are small enough for double-double (overlap/small_distances.hpp). It is
+  /// that of the solid with unit volume: the inradius, or four circumradii for a solid with more than narrow_edges
+  /// edges, which may have very flat edges and blunt vertices.
   double fine_below() const { return fine_below_; }
   /// Inertia tensor about the centroid, ∫ (|x|² − x xᵀ) dV, in the body frame. For a spherical top it is m R² times the
   /// identity.

@@ -45,10 +45,10 @@ Quad rounding_tolerance(std::span<const Quad3> points);
 
 /// Joins triangles of a convex hull to faces. A face consists of triangles that share edges, and all of its corners are
 /// within `tolerance` (in units of points.unit()) of its plane. The normal of this plane is the sum of the area vectors
-/// of the triangles, and the plane contains the mean of the corners. Faces are joined in pairs. The first pair is the
-/// one whose corners have the smallest maximum distance from their common plane. A point in which fewer than three
-/// faces meet is then removed from these faces. The faces are sorted by their three smallest vertices. Throws NoSolid
-/// if the faces do not bound a convex polyhedron.
+/// of the triangles, and the plane contains the mean of the corners. Each step joins the two neighbouring faces whose
+/// corners have the smallest maximum distance from their common plane. A point in which fewer than three faces meet is
+/// then removed from these faces. The faces are sorted by their three smallest vertices. Throws NoSolid if the faces do
+/// not bound a convex polyhedron.
 std::vector<FaceLoop> joined_faces(const HullPoints& points, std::span<const HullTriangle> triangles, double tolerance);
 
 /// Throws NoSolid if two points are nearer than `tolerance` (in units of points.unit()).

@@ -20,8 +20,8 @@ struct EnumName {
 template <class Enum>
 EnumName(Enum, std::string_view) -> EnumName<Enum>;
 
-/// The names of an enumeration, each enumerator once, in the order of messages and lists. Specialise this variable
-/// directly after the enumeration, so that to_string() and from_string() work for it:
+/// The names of an enumeration, in the order in which messages list them. Each enumerator occurs once. Specialise this
+/// variable directly after the enumeration, so that to_string() and from_string() work for it:
 ///
 ///   enum class Axis { x, y };
 ///   template <>

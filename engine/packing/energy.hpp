@@ -35,16 +35,15 @@ struct Evaluation {
   double residual = 0;
   /// Residual that rounding errors alone can cause, so a minimisation ends when the residual is at most this value.
   /// - Precision::working: the coordinates are rounded, and the floor is λ·ulp(L)/mean_force, where L is the side of
-  /// the
-  ///   cell, ulp(L) = 2⁻⁵² L, and λ an estimate of the largest eigenvalue of the Hessian: twice the largest value that
-  ///   Σ_c ½ |∇V|² has for any particle, where c are the contacts of the particle.
-  /// - Precision::double_double: V and S of the contacts have rounding errors, and the floor is b·max Σ_c ρ_c
-  ///   |F_c|/mean_force, with the sum over the contacts c of a particle, and the maximum over all particles. The factor
-  ///   b is the largest ratio of circumradius to radius of gyration, because the circumradius is the longest lever arm
-  ///   of a force. ρ_c = τ/max(d, V/|S|) + τ/√|S| is the relative error of the volume V and the vector area S of a
-  ///   contact: a distance of a vertex from a plane has the error τ = gap_tolerance() if it is larger than d =
-  ///   double_double_below(), and is otherwise correct to its last bits. The second term is due to the corners of the
-  ///   intersection, whose coordinates are doubles.
+  ///   the cell, ulp(L) = 2⁻⁵² L, and λ = 2 max Σ_c ½ |∇V|² an estimate of the largest eigenvalue of the Hessian. The
+  ///   sum is over the contacts c of a particle, and the maximum over all particles.
+  /// - Precision::double_double: V and S of the contacts have rounding errors, and the floor is
+  ///   b·max Σ_c ρ_c |F_c|/mean_force, with the same sum and maximum. The factor b is the largest ratio of circumradius
+  ///   to radius of gyration, because the circumradius is the longest lever arm of a force.
+  ///   ρ_c = τ/max(d, V/|S|) + τ/√|S| is the relative error of the volume V and the vector area S of a contact. Its
+  ///   first term is due to the distances of vertices from planes: those above d = double_double_below() have the error
+  ///   τ = gap_tolerance(), and smaller ones are correct to their last bits. The second term is due to the corners of
+  ///   the intersection, whose coordinates are doubles.
   double residual_floor = 0;
   /// Error of the energy that the same rounding can cause, as a sum over contacts: Σ |F|·ulp(L) with
   /// Precision::working, and Σ ρ_c V²/2 with Precision::double_double.
@@ -56,8 +55,8 @@ struct Evaluation {
 /// cohesion by repulsive_pressure. It is 0 if the divisor is not positive.
 double deviator_of(const Evaluation& evaluation);
 
-/// Second derivatives of the energy, and the incipient contacts, for some of which the second derivatives contain no or
-/// too little stiffness (incipient_contact.hpp).
+/// Second derivatives of the energy, and the incipient contacts (incipient_contact.hpp), because the second derivatives
+/// contain too little of the stiffness of some of them.
 struct SecondOrder {
   /// Hessian ∂²E/∂r². The coordinates r are (x, R·θ) for each particle, as in Evaluation::gradient, followed by the
   /// coordinates ℓ·ε of the free strains, with ℓ = strain_length() (cell/control.hpp).
@@ -89,11 +88,11 @@ class PackingEnergy {
   bool accepts(const Packing& packing);
   /// Computes the energy and its first derivatives. Throws std::invalid_argument if the cell is not legal for the
   /// particles (is_legal() in cell/periodic_cell.hpp). With Precision::double_double, the volume, vector area and
-  /// moment of every contact are computed from both doubles of each coordinate, but summed in double.
+  /// moment of every contact are computed in double-double, but the sums over contacts in double.
   Evaluation evaluate(const Packing& packing, Precision precision = Precision::working);
-  /// Computes the Hessian from analytic formulae, and the incipient contacts for a probe distance (V_p^(1/3)), which
-  /// are all pairs that touch if the probe distance is 0. The last rows and columns of the Hessian belong to the free
-  /// strains of `cell`.
+  /// Computes the Hessian from analytic formulae, and the incipient contacts for a probe distance, in units of
+  /// V_p^(1/3). With the probe distance 0, these are the pairs that touch. The last rows and columns of the Hessian
+  /// belong to the free strains of `cell`.
   SecondOrder second_order(const Packing& packing, double probe_distance, Precision precision = Precision::working,
                            CellFreedom cell = CellFreedom::fixed);
   /// Computes only the Hessian of second_order(), without strains.

@@ -49,14 +49,14 @@ struct Compression {
   double step = 0.02;
   double target_energy = 3.2e-5;  ///< target energy per particle E/N; the value of the paper
   /// The paper's target energy can be interpreted in two ways:
-  /// - false: compression ends at the first state whose E/N after relaxation is at least target_energy. The
-  ///   minimisation at the start of decompression can reduce E/N to less than half of target_energy. Compression then
+  /// - false: compression ends at the first state whose E/N after relaxation is at least target_energy. If the
+  ///   minimisation at the start of decompression reduces E/N to less than half of target_energy, compression
   ///   continues.
   /// - true: each strain step is halved, at most six times, until E/N before relaxation is at most target_energy.
   ///   Compression ends at the first state that has contacts and whose residual is at most 1e-3.
   bool target_before_relaxation = false;
-  /// Upper limit of φ, at which no particle may be able to touch two images of another one (is_legal() in
-  /// packing/cell/periodic_cell.hpp). Crystals can exceed φ = 0.9 before they reach the target energy.
+  /// Upper limit of φ. The cell must be legal up to this density (is_legal() in packing/cell/periodic_cell.hpp).
+  /// Crystals can exceed φ = 0.9 before they reach the target energy.
   double max_density = 0.93;
   /// Largest number of evaluations for a state. L-BFGS relaxes a state until the residual is at most 1e-3, or until E/N
   /// is below 1e-14, the criterion minimise.energy_change is satisfied, or this number of evaluations is reached. More
@@ -96,21 +96,21 @@ struct JamOptions {
   int cycles = 0;
   int max_steps = 400;                    ///< largest number of entries of `path`, both stages together
   CellShape cell = CellShape::isotropic;  ///< relaxation of the shape of the cell
-  /// Options of the minimisations. In compression, the method is always L-BFGS, and Compression::evaluations replaces
-  /// max_evaluations. `residual` and `unjammed_energy` are there at least 1e-3 and 1e-14.
+  /// Options of the minimisations. In compression, the method is always L-BFGS, Compression::evaluations replaces
+  /// max_evaluations, `residual` is at least 1e-3, and `unjammed_energy` at least 1e-14.
   MinimiseOptions minimise;
 };
 
-/// Stages of the protocol: compression and decompression; and that of a packing that is measured without either.
+/// Stages of the protocol, and `as_given` for a packing that is measured without them.
 enum class JamStage { compression, decompression, as_given };
 template <>
 inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::compression, "compression"},
                                                  EnumName{JamStage::decompression, "decompression"},
                                                  EnumName{JamStage::as_given, "as_given"}};
 
-/// Difference between two successive states of a solution branch, from which is_rearranged() decides whether the step
-/// contains a rearrangement. On a smooth solution branch, the energy is proportional to Δφ⁶, and all particles move by
-/// similar distances. In a rearrangement, the packing loses energy, and a few particles move much farther than others.
+/// Difference between two successive states of a solution branch, a family of equilibria that changes continuously with
+/// φ. Along a branch, the energy is proportional to Δφ⁶, and all particles move by similar distances. In a
+/// rearrangement (is_rearranged()), the packing loses energy, and a few particles move much farther than others.
 struct Rearrangement {
   /// E₁ divided by its expected value (Δφ₁/Δφ₀)⁶ E₀. The index 0 means the first state, 1 the second. Δφ₀ is
   /// distance_to_jamming() of the first state, and Δφ₁ = Δφ₀ − (φ₀ − φ₁).
@@ -139,8 +139,8 @@ struct JamStep {
   double deviator = 0;                     ///< deviation from hydrostatic stress, see deviator_of()
   MinimiseSummary summary;                 ///< result of the minimisation of the state
   int descents = 0;  ///< number of saddles that settle() relaxed to reach this state; jam() leaves it 0
-  /// difference from the state before; nullopt in compression, at the beginning of a solution branch, and for a step
-  /// that failed, or in which a branch ended
+  /// difference from the state before; nullopt in compression, at the beginning of a solution branch, and if the step
+  /// failed or a branch ended in it
   std::optional<Rearrangement> rearrangement;
   /// True if the solution branch ended in this step of the decompression. Either the packing is unjammed, or φ − φ_J is
   /// above 0.001 and this step and the step before it, which was twice as long, both ended with StopReason::budget.
@@ -215,8 +215,8 @@ struct JamProgress {
   /// packing from which the next step starts: the last minimised state, or the initial configuration
   Packing packing;
   JamStage stage = JamStage::compression;  ///< stage of the next step
-  /// Present value of the step fraction: at first Decompression::step_fraction. It is smaller after steps that failed
-  /// or ended a solution branch.
+  /// Present value of the step fraction: Decompression::step_fraction at first, and less after steps that failed or
+  /// ended a solution branch.
   double step_fraction = 0;
   /// Number of steps of the decompression that failed or ended a solution branch, each of which halves the step
   /// fraction. The fifth ends the decompression.

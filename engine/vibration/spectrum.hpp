@@ -54,8 +54,8 @@ struct SpectrumEnds {
 struct ModeOptions {
   int lowest = 50, highest = 50;  ///< numbers of modes; if the packing has fewer modes, all modes are computed
   /// Magnitude |σ|/λ_max of the shift σ < 0 in the first attempt. It must be larger than the rounding errors of the
-  /// translations in the factorisation, but not much larger than the smallest λ/λ_max, which is of order Δφ⁴: 1e-12 for
-  /// the packings of tetrahedra nearest to jamming, of which a shift of 1e-6 gives wrong modes.
+  /// translations in the factorisation, but not much larger than the smallest λ/λ_max. This ratio is of order Δφ⁴, and
+  /// 1e-12 for the packings of tetrahedra nearest to jamming, for which a shift of 1e-6 gives wrong modes.
   double shift = 1e-11;
   /// Relative accuracy of 1/(λ − σ) for the lowest modes, where σ is the shift. The inverse iteration converges so fast
   /// that full accuracy costs little.
@@ -68,11 +68,11 @@ struct ModeOptions {
 };
 
 /// Computes the lowest modes by the shift-invert Lanczos method with a shift below 0, and the highest modes by the
-/// Lanczos method for D itself. Start vectors are fixed, so the same matrix gives the same bits. If the method does not
-/// converge, if the residual shows that the factorisation was inaccurate, or if modes below the shift are missing,
-/// whose number follows from Sylvester's law of inertia, the modes are computed again: first with a larger subspace and
-/// a shift below the whole spectrum, then by the dense solver, for at most `largest_dense` particles. If no modes are
-/// found, ModeSet::ended reports the failure, and nothing is thrown.
+/// Lanczos method for D itself. Start vectors are fixed, so the same matrix gives the same bits. Modes are computed
+/// again if the method does not converge, if the residual shows that the factorisation was inaccurate, or if there are
+/// fewer modes below the shift than Sylvester's law of inertia requires: first with a larger subspace and a shift below
+/// the whole spectrum, then by the dense solver, for at most `largest_dense` particles. If no modes are found,
+/// ModeSet::ended reports the failure, and nothing is thrown.
 SpectrumEnds spectrum_ends(const BlockMatrix& matrix, const ModeOptions& options = {});
 
 /// Computes all 6N − 3 modes with the dense solver, in a time of O(N³) and with a memory of O(N²).

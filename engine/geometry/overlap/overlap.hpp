@@ -47,10 +47,10 @@ struct Overlap {
 ///   V   = Σ_f ∫_f h n_P·n_f dA  over the faces f of the intersection, h the height over the least-penetrated plane P
 ///       = (1/6) Σ [t(left) − t(right)]  over its edges v → w, each with the faces to its left and right;
 ///         t(f) = n_P·((v−o)×(w−o)) (h_o+h_v+h_w), where o is a vertex of the face f
-/// Heights are interpolated between the distances of vertices from planes, which are stored in a table; only
-/// refine_small_corners() computes them from coordinates, in double-double. Because heights are 0 on P and small near
-/// P, V of a face-face contact of any depth is as accurate as the table. If the loop is not closed, or if a vertex lies
-/// on a face plane within rounding errors, clipped_overlap() computes the result. The function never throws.
+/// Heights are interpolated from a table of the distances of vertices from planes; only refine_small_corners() computes
+/// them from coordinates, in double-double. Because heights are 0 on P and small near P, V of a face-face contact of
+/// any depth is as accurate as the table. If the loop is not closed, or if a vertex lies on a face plane within
+/// rounding errors, clipped_overlap() computes the result. The function never throws.
 ///
 /// If a face of A or B separates the solids by more than rounding errors, `axis` is set to its normal, for later use
 /// with separates(). If only another axis separates them, `axis` is set to Kind::none.
@@ -89,7 +89,7 @@ inline Vector6d joined(const Eigen::Vector3d& translation, const Eigen::Vector3d
 ///   u_A = (n_i, (y−x_A)×n_i)
 ///   u_B = (n_j, (y−x_B)×n_j)
 /// The other blocks follow from H_AB, because a rigid motion of both bodies together does not change V:
-///   H_AA = −H_AB·Tr − [S_A]× in the (x,θ) block, symmetrised
+///   H_AA = −H_AB·Tr − X, symmetrised, where X is [S_A]× in the (x, θ) block and 0 in the other three
 ///   Tr: (a, θ) → (a + θ×r, θ), r = x_B − x_A
 /// H_BB follows in the same way from H_BA = H_ABᵀ, S_B = −S_A and −r.
 struct OverlapHessian {

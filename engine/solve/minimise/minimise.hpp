@@ -12,10 +12,9 @@
 namespace isojam {
 
 /// Method of minimisation. With `multipliers`, jam() follows an equilibrium through each decompression step near
-/// jamming (solve/multipliers/), and also finds the first state of a decompression in this way if the packing from
-/// which it starts has a large residual. In minimise(), `multipliers` is the same as `newton`. `conjugate_gradient`,
-/// `fire` and `lbfgs` are available for comparison, because they do not converge near jamming. Compression always uses
-/// `lbfgs`.
+/// jamming (solve/multipliers/), and finds the first state of a decompression in the same way if compression ended far
+/// from equilibrium. In minimise(), `multipliers` is the same as `newton`. `conjugate_gradient`, `fire` and `lbfgs` do
+/// not converge near jamming and are available for comparison. Compression always uses `lbfgs`.
 enum class Method { conjugate_gradient, fire, lbfgs, newton, multipliers };
 template <>
 inline constexpr std::array enum_names<Method>{
