@@ -121,8 +121,8 @@ CLAIMS = {
         e["mean"] + e["half_width"] < 0 for s in SOLIDS if (e := density_changes(data, s)["energy"])),
     "Ours are nearly as dense,": lambda data: all(
         0 < hard_offset(data, s) < 0.012 for s in SOLIDS[1:]) and hard_offset(data, SOLIDS[0]) > 0.1,
-    "Cohesion that is removed raises φ_J of tetrahedra": lambda data: sure(density_changes(data, SOLIDS[0])["removed_least"]),
-    "chance alone gives such a least probability": lambda data: offset_test(data)["chance"] > 0.1,
+    "Cohesion that is removed raises φ_J of tetrahedra again": lambda data: sure(density_changes(data, SOLIDS[0])["removed_least"]),
+    "among eight offsets, chance alone gives such a least probability": lambda data: offset_test(data)["chance"] > 0.1,
     "The paper's intervals are narrower than the spread of single packings.": lambda data: all(
         f["error"] < data.phi_j(f["solid"], f["particles"])["half_width"] * (data.phi_j(
             f["solid"], f["particles"])["n"] + 1) ** 0.5 for f in figures_of("Table I")),
@@ -140,10 +140,10 @@ CLAIMS = {
     "its Z_ff and mean cluster sizes are within our prediction intervals for one packing, with two exceptions. Its clusters "
     "of tetrahedra are larger, and those of icosahedra are smaller.": lambda data: outside(data, ("Z_ff", "S")) == {
         (SOLIDS[0], "S"): "larger", (SOLIDS[2], "S"): "smaller"},
-    "Between vertices, only the extents of tetrahedra differ significantly from ours; between centres, all except those of "
-    "icosahedra do": lambda data: set(outside(data, ("l_max", "body_l_max"))) == {
+    "if between vertices, only its extents of tetrahedra differ significantly from ours, and if between centres, all but "
+    "those of icosahedra do": lambda data: set(outside(data, ("l_max", "body_l_max"))) == {
         (SOLIDS[0], "body_l_max"), *((s, "l_max") for s in SOLIDS if s != SOLIDS[2])},
-    "the densities of the two halves of this range differ by": lambda data: all(
+    "in our packings, the densities of the two halves of this range differ by": lambda data: all(
         off > error for off, error in region_two(data)),
     "For seven of the eight combinations of solid and N, the paper's interval overlaps our prediction interval for one "
     "packing; for dodecahedra with N = 400 it does not.": lambda data: [
@@ -151,8 +151,8 @@ CLAIMS = {
         if "outside" in within(data, f, data.phi_j(f["solid"], f["particles"]))] == [(SOLIDS[3], 400)],
     "Small θ_ef are more frequent than in random contacts at all Δφ up to 0.32.": lambda data: len(emergence(data)) > 20
         and all(near["mean"] - near["half_width"] > 1 for *_, near in emergence(data)),
-    "Angles θ_ff below 1° become frequent later, at Δφ between 0.16 and 0.04, in agreement with the paper (in tetrahedra, both "
-    "are frequent at 0.32;": lambda data: all(
+    "Angles θ_ff below 1° become so only at a Δφ between 0.16 and 0.04, in agreement with the paper (in tetrahedra, both are "
+    "frequent at 0.32;": lambda data: all(
         (one["mean"] > 1) == (solid == SOLIDS[0] or distance < 0.1) for solid, distance, _, one, _ in emergence(data)
         if distance > 0.15 or distance < 0.05),
     "The structure factor of the centres is below 0.05 for wave numbers k < 1": lambda data: all(

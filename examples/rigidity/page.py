@@ -138,16 +138,16 @@ CLAIMS = {
             False, False, True, True] and min(data.nearest_of(SOLIDS_64, s, "C_s")["mean"] for s in SOLIDS[:2]) > 12,
     "Nearer to jamming, C_s of icosahedra and dodecahedra is below 12 − 4/N": lambda data: all(
         (c := data.nearest(s, 100, "C_s"))["mean"] + c["half_width"] < 12 - 4 / 100 for s in SOLIDS[2:]),
-    "packings of octahedra, icosahedra and dodecahedra, so that m decides.": lambda data: (
+    "packings of octahedra, icosahedra and dodecahedra, so that only m changes C.": lambda data: (
         one := verdict.single_stress(data))[0] > 0.95 * one[1],
     "In dodecahedra, m exceeds its errors at every N, but only just in the limit.": lambda data: all(
         m["mean"] > verdict.error(m) for n in verdict.sizes(data, SOLIDS[3]) if (m := verdict.mean(data, SOLIDS[3], n, "m_x"))
     ) and 1 < (m := verdict.limit(data, SOLIDS[3], "m_x"))["mean"] / verdict.error(m) < 1.2,
-    "few missing constraints belong to underconstrained particles.": lambda data: all(
+    "few missing constraints belong to underconstrained particles": lambda data: all(
         sum(p["m_supported"] for p in verdict.every(data, s)) > 0.7 * sum(p["m_x"] for p in verdict.every(data, s))
         for s in WITHOUT_TETRAHEDRA),
-    "so that m decides there too": lambda data: int(single_by_trough(data, "one")) > 0.9 * int(single_by_trough(data, "all")),
-    "By fit, the limits of m for N → ∞ are compatible with zero in icosahedra and dodecahedra.": lambda data: all(
+    "so that only m changes C there too": lambda data: int(single_by_trough(data, "one")) > 0.9 * int(single_by_trough(data, "all")),
+    "By fit, the limits of m for N → ∞ are compatible with zero in icosahedra and dodecahedra": lambda data: all(
         m["mean"] < m["half_width"] for m in missing_limits(data)),
     "In no solid are the exponents of E and K constant: at the largest Δφ, both are smaller than nearer to jamming.":
         lambda data: all(decreasing(data, s, column) for s in SOLIDS for column in ("E", "K")),
