@@ -57,6 +57,7 @@ class Temporary {
     if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw FileError::of_errno(path_, cannot_be_written);
     renamed_ = true;
   }
+
  private:
   fs::path path_, temporary_;
   Descriptor file_;

@@ -68,20 +68,13 @@ struct MeasureLaw {
   double at_100, power;
 };
 constexpr std::array measure_laws{
-    MeasureLaw{Measure::contacts, 0.01, 1},
-    MeasureLaw{Measure::order, 0.0027, 1.75},
-    MeasureLaw{Measure::clusters, 0.0065, 1.1},
-    MeasureLaw{Measure::percolation, 0.015, 1.1},
-    MeasureLaw{Measure::modes, 0.046, 1.8},
-    MeasureLaw{Measure::moduli, 0.1, 2.1},
-    MeasureLaw{Measure::strict, 0.1, 2.1},
-    MeasureLaw{Measure::shear, 0.1, decompression_size_power},
-    MeasureLaw{Measure::rigidity, 0.025, 2.5},
-    MeasureLaw{Measure::exponents, 0.3, 2.0},
-    MeasureLaw{Measure::backbone, 0.06, 3},
-    MeasureLaw{Measure::difference_modes, 0.68, 2.3},
-    MeasureLaw{Measure::prestress, 0.28, 2.4},
-    MeasureLaw{Measure::gaps, 0.065, 1.1},
+    MeasureLaw{Measure::contacts, 0.01, 1},     MeasureLaw{Measure::order, 0.0027, 1.75},
+    MeasureLaw{Measure::clusters, 0.0065, 1.1}, MeasureLaw{Measure::percolation, 0.015, 1.1},
+    MeasureLaw{Measure::modes, 0.046, 1.8},     MeasureLaw{Measure::moduli, 0.1, 2.1},
+    MeasureLaw{Measure::strict, 0.1, 2.1},      MeasureLaw{Measure::shear, 0.1, decompression_size_power},
+    MeasureLaw{Measure::rigidity, 0.025, 2.5},  MeasureLaw{Measure::exponents, 0.3, 2.0},
+    MeasureLaw{Measure::backbone, 0.06, 3},     MeasureLaw{Measure::difference_modes, 0.68, 2.3},
+    MeasureLaw{Measure::prestress, 0.28, 2.4},  MeasureLaw{Measure::gaps, 0.065, 1.1},
 };
 static_assert(std::ranges::equal(measure_laws, all_measures, {}, &MeasureLaw::what),
               "a measure has no time in measure_laws, or not at its place in the list of measures");
