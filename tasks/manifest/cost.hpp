@@ -16,7 +16,7 @@ struct Cost {
 /// Estimates the cost of a replicate. The CPU time is the sum of compression, decompression and measures. Each is a
 /// power of N and of the parameters that change it most, see cost.cpp. Solids without constants of their own and
 /// mixtures are treated as cubes. On another machine or with another protocol, all CPU times of a sweep point change by
-/// about the same factor, which survey_of() finds from the records.
+/// about the same factor, which surveys_of() finds from the records.
 Cost estimated_cost(const ReplicateSpec& spec, bool keep_path);
 
 /// Number of replicates that may be in memory at the same time, if each needs at most `largest` bytes and `available`

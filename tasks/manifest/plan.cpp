@@ -4,6 +4,8 @@
 
 #include <cassert>
 #include <charconv>
+#include <mutex>
+#include <utility>
 
 #include "tasks/io/hash.hpp"
 #include "tasks/packings/mixture_json.hpp"
@@ -42,7 +44,8 @@ std::string point_text(const ReplicateSpec& spec) { return point_text(spec.solid
 Plan::Plan(const Manifest& manifest)
     : manifest_(manifest),
       sets_(option_sets(manifest)),
-      points_(manifest.solids.size() * manifest.particles.size() * sets_.size()) {
+      points_(manifest.solids.size() * manifest.particles.size() * sets_.size()),
+      texts_(points_) {
   for (std::size_t point = 0; point < points_; ++point) point_of_prefix_[prefix(at(point, 0))] = point;
 }
 
@@ -80,7 +83,7 @@ std::optional<Plan::Place> Plan::place_of(std::string_view name) const {
       replicate >= (manifest_.start ? replicates() : static_cast<int>(most_replicates)))
     return std::nullopt;
   // The name must be spelt exactly as isojam spells it. For example, the number 1 must be written 0001.
-  if (replicate_name(at(point->second, replicate)) != name) return std::nullopt;
+  if (fmt::format("{}-r{:04}", point->first, replicate) != name) return std::nullopt;
   return Place{point->second, replicate};
 }
 
@@ -162,12 +165,31 @@ Json to_json(const ReplicateSpec& spec) {
   return json;
 }
 
-std::string spec_digest(Json spec, std::uint64_t seed) {
+namespace {
+
+std::string hashed_text(Json spec, std::uint64_t seed) {
   spec.erase("measure");
   spec["seed"] = seed;
-  return hex_hash(compact(spec));
+  return compact(spec);
 }
 
+}  // namespace
+
+std::string spec_digest(Json spec, std::uint64_t seed) { return hex_hash(hashed_text(std::move(spec), seed)); }
+
 std::string spec_digest(const ReplicateSpec& spec) { return spec_digest(to_json(spec), spec.seed); }
+
+std::string Plan::digest(const Place& place) const {
+  if (manifest_.start) return spec_digest(at(place.point, place.replicate));
+  static std::mutex mutex;
+  const std::scoped_lock lock(mutex);
+  auto& text = texts_[place.point];
+  if (text.empty()) text = hashed_text(to_json(at(place.point, 0)), manifest_.seed);
+  // Replicates of a sweep point differ only in their number. In a text, the quotation marks of a key have no backslash.
+  constexpr std::string_view number = R"("replicate":0)";
+  const auto found = text.find(number);
+  return hex_hash(text.substr(0, found + number.size() - 1) + std::to_string(place.replicate) +
+                  text.substr(found + number.size()));
+}
 
 }  // namespace isojam

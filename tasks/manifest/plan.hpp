@@ -55,6 +55,8 @@ class Plan {
   /// may be larger than the plan requests, unless initial configurations are given.
   std::optional<Place> place_of(std::string_view name) const;
   bool requests(const Place& place) const { return place.replicate < replicates(); }
+  /// spec_digest() of the replicate, in a fraction of the time.
+  std::string digest(const Place& place) const;
 
  private:
   Manifest manifest_;
@@ -62,6 +64,7 @@ class Plan {
   std::size_t points_;
   /// index of each sweep point; the key is the common beginning of the names of its replicates
   std::map<std::string, std::size_t, std::less<>> point_of_prefix_;
+  mutable std::vector<std::string> texts_;  ///< hashed text of replicate 0 of each sweep point, once it is known
 };
 
 /// Name of a replicate, which is also the name of its files without extension:

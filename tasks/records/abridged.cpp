@@ -64,17 +64,17 @@ class Shortener {
     text_.append(line.substr(indent));
   }
 
-  /// In the measures of a state, only the keys of quantities are needed.
+  /// In the measures of a state, at most the keys of quantities are needed.
   bool is_needed(std::string_view line, std::size_t indent) {
-    constexpr std::size_t state = 6;
-    if (indent == state) in_measure_ = from_string<Measure>(key_of(line, indent)).has_value();
-    if (keys_ == Keys::all || section_ != "states" || indent <= state || !in_measure_ || kept_ != 0) return true;
     if (unneeded_ != 0) {
       if (indent == unneeded_) unneeded_ = 0;
       return false;
     }
+    constexpr std::size_t state = 6;
     const auto key = key_of(line, indent);
-    if (key.empty() || keys_of_quantities().contains(key)) return true;
+    if (indent == state) in_measure_ = from_string<Measure>(key).has_value();
+    if (keys_ == Keys::all || section_ != "states" || indent < state || !in_measure_ || kept_ != 0) return true;
+    if (indent == state ? keys_ != Keys::none : key.empty() || keys_of_quantities().contains(key)) return true;
     if (line.back() == '{' || line.back() == '[') unneeded_ = indent;
     return false;
   }

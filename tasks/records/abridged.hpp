@@ -8,8 +8,8 @@ namespace isojam {
 
 /// States of the decompression that are kept.
 enum class States : std::uint8_t { nearest, all };
-/// Keys of a state that are kept: those that tables need, or all.
-enum class Keys : std::uint8_t { quantities, all };
+/// Keys of a state that are kept: none of measures, those that tables need, or all.
+enum class Keys : std::uint8_t { none, quantities, all };
 
 struct Abridgement {
   States states = States::all;

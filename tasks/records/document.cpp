@@ -48,21 +48,30 @@ void describe_timing(Fields& field, Timing& timing, std::map<std::string, double
       .unit("s")
       .range(not_negative)
       .finite();
-  const auto describe_stages = [&stages](Fields& inner) {
-    const auto add = [&](const std::string& name, const Words& meaning) {
-      Custom value{[&stages, name] { return stages.contains(name) ? Json(stages.at(name)) : Json(nullptr); },
-                   [&stages, name](const JsonPlace& place) { stages[name] = place.number(not_negative); },
-                   {{"type", "number"}, {"minimum", 0}},
-                   "number ≥ 0"};
-      inner.custom(name, std::move(value), meaning).optional().unit("s");
-    };
-    add("jam", "CPU time of the protocol.");
-    for (const Measure measure : all_measures) {
-      const std::string name(to_string(measure));
-      add(name, "CPU time of the measure `" + name + "`.");
+  // A description for each stage of each record would take longer than reading their times.
+  static const auto names = [] {
+    std::vector<std::string_view> list{"jam"};
+    for (const Measure measure : all_measures) list.push_back(to_string(measure));
+    return list;
+  }();
+  const auto describe_stages = [](Fields& inner) {
+    for (const auto stage : names) {
+      const std::string name(stage);
+      const auto meaning = name == "jam" ? "CPU time of the protocol." : "CPU time of the measure `" + name + "`.";
+      inner.custom(name, {nullptr, nullptr, {{"type", "number"}, {"minimum", 0}}, "number ≥ 0"}, meaning)
+          .optional()
+          .unit("s");
     }
   };
-  field.nested("stages", describe_stages, "CPU time of the protocol and of each measure.");
+  Custom value{[&stages] { return Json(stages); },
+               [&stages](const JsonPlace& place) {
+                 place.expect_keys(names);
+                 for (const auto& item : place.value().items())
+                   place.read(item.key(),
+                              [&](const JsonPlace& time) { stages[item.key()] = time.number(not_negative); });
+               },
+               nullptr, "", describe_stages};
+  field.custom("stages", std::move(value), "CPU time of the protocol and of each measure.");
 }
 
 /// The specification remains JSON in a record. It is written by to_json(const ReplicateSpec&).

@@ -1,9 +1,12 @@
 #include "tasks/records/recorded.hpp"
 
 #include <fmt/format.h>
+#include <tbb/info.h>
+#include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
 #include <charconv>
+#include <exception>
 #include <iterator>
 #include <system_error>
 
@@ -110,6 +113,30 @@ RecordedReplicate read_record(const fs::path& directory, const std::string& name
       replicate.nearest = index;
     return replicate;
   });
+}
+
+void read_in_order(const std::vector<std::string>& names,
+                   const std::function<std::function<void()>(const std::string&)>& read) {
+  using Use = std::function<void()>;
+  std::size_t next = 0;
+  const auto give = [&](tbb::flow_control& control) {
+    if (next == names.size()) control.stop();
+    return next++;
+  };
+  const auto read_one = [&](std::size_t k) -> Use {
+    try {
+      return read(names[k]);
+    } catch (...) {
+      // Thrown in turn, so that the first error of the list is reported.
+      return [error = std::current_exception()] { std::rethrow_exception(error); };
+    }
+  };
+  // At most four records for each thread are in memory.
+  tbb::parallel_pipeline(
+      4 * static_cast<std::size_t>(tbb::info::default_concurrency()),
+      tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, give) &
+          tbb::make_filter<std::size_t, Use>(tbb::filter_mode::parallel, read_one) &
+          tbb::make_filter<Use, void>(tbb::filter_mode::serial_in_order, [](const Use& use) { use(); }));
 }
 
 std::vector<Measure> lacks(const RecordedReplicate& replicate, const std::vector<Measure>& measures) {

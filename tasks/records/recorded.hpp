@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,11 @@ struct RecordedReplicate {
 /// time if only a part of the record is kept; the result digest is then not checked.
 RecordedReplicate read_record(const std::filesystem::path& directory, const std::string& name,
                               const std::optional<Abridgement>& kept = std::nullopt);
+
+/// Calls `read` with each name, several at the same time, and what it returns one after the other in the order of the
+/// names. The first exception in this order ends it.
+void read_in_order(const std::vector<std::string>& names,
+                   const std::function<std::function<void()>(const std::string&)>& read);
 
 /// Those of the measures that the record does not have.
 std::vector<Measure> lacks(const RecordedReplicate& replicate, const std::vector<Measure>& measures);

@@ -78,13 +78,13 @@ std::optional<ReplicateSpec> requested(const Requests& requests, std::string_vie
 bool is_requested(const Requests& requests, std::string_view name, const std::string& digest) {
   return std::any_of(requests.begin(), requests.end(), [&](const Plan& plan) {
     const auto place = plan.place_of(name);
-    return place && plan.requests(*place) && spec_digest(plan.at(place->point, place->replicate)) == digest;
+    return place && plan.requests(*place) && plan.digest(*place) == digest;
   });
 }
 
-Standing standing_of(const RecordedReplicate& replicate, const std::optional<ReplicateSpec>& spec) {
-  if (spec && spec_digest(*spec) == replicate.summary.spec_digest) return Standing::requested;
-  return spec && replicate.summary.failed ? Standing::superseded : Standing::foreign;
+Standing standing_of(const RecordedReplicate& replicate, const std::optional<std::string>& digest) {
+  if (digest == replicate.summary.spec_digest) return Standing::requested;
+  return digest && replicate.summary.failed ? Standing::superseded : Standing::foreign;
 }
 
 bool are_in_conflict(const Plan& one, const Plan& other) {

@@ -33,13 +33,13 @@ std::optional<ReplicateSpec> requested(const Requests& requests, std::string_vie
 /// True if a manifest requests the replicate with this name and this digest of its specification.
 bool is_requested(const Requests& requests, std::string_view name, const std::string& digest);
 
-/// Relation of a record to the specification that requested() gives to its name.
+/// Relation of a record to the specification that requested() gives to its name, or to the digest of it.
 enum class Standing {
   requested,   ///< the record has this specification
   superseded,  ///< the record has another one and failed, so that the next run replaces it
   foreign      ///< the record has another one, or there is none
 };
-Standing standing_of(const RecordedReplicate& replicate, const std::optional<ReplicateSpec>& spec);
+Standing standing_of(const RecordedReplicate& replicate, const std::optional<std::string>& digest);
 
 /// True if the plans give different specifications to a replicate.
 bool are_in_conflict(const Plan& one, const Plan& other);

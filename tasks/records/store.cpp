@@ -1,11 +1,8 @@
 #include "tasks/records/store.hpp"
 
 #include <fmt/format.h>
-#include <tbb/info.h>
-#include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
-#include <exception>
 #include <system_error>
 
 #include "tasks/io/atomic_file.hpp"
@@ -120,7 +117,7 @@ void check_directory(const fs::path& directory, const Manifest& manifest, const 
     } catch (const InputError&) {
       continue;
     }
-    if (standing_of(*held, spec) == Standing::foreign) throw conflict_of(directory, *held, spec);
+    if (standing_of(*held, spec_digest(spec)) == Standing::foreign) throw conflict_of(directory, *held, spec);
   }
 }
 
@@ -154,7 +151,7 @@ std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
   if (fs::symlink_status(path, error).type() == fs::file_type::not_found) return std::nullopt;
   try {
     auto held = read_record(directory_, replicate_name(spec));
-    const auto standing = standing_of(held, spec);
+    const auto standing = standing_of(held, spec_digest(spec));
     if (standing == Standing::superseded) return std::nullopt;
     if (standing == Standing::requested) {
       check_companions(directory_, held, manifest_.keep_path);
@@ -256,59 +253,36 @@ void for_each_record(const fs::path& directory, const Warn& warn, const std::fun
   const auto names = names_in(directory / "records");
   if (names.empty()) throw_without_records(directory);
   const auto requests = requests_in(directory, warn);
-  struct Read {
-    std::string name;
-    std::optional<RecordedReplicate> held{};
-    Standing standing = Standing::requested;
-    bool is_asked_for = true;
-    std::exception_ptr error{};
-  };
-  std::size_t count = 0;
-  const auto next = [&](tbb::flow_control& control) {
-    if (count == names.size()) control.stop();
-    return count == names.size() ? std::string() : names[count++];
-  };
-  const auto read = [&](const std::string& name) {
-    Read one{name};
-    try {
-      std::optional<ReplicateSpec> spec;
-      for (const auto& plan : requests) {
-        const auto place = plan.place_of(name);
-        if (place && !spec) spec = plan.at(place->point, place->replicate);
-        one.is_asked_for = place && plan.requests(*place);
-        if (one.is_asked_for) break;
-      }
-      try {
-        one.held = read_record(directory, name, kept);
-      } catch (const InputError&) {
-        if (spec || requests.empty()) throw;
-      }
-      if (one.held && !requests.empty()) one.standing = standing_of(*one.held, spec);
-    } catch (...) {
-      one.error = std::current_exception();
-    }
-    return one;
-  };
   std::vector<std::string> unasked, foreign, superseded;
-  const auto pass_on = [&](Read one) {
-    // Thrown here instead of in `read`, so that the first error of the list is reported.
-    if (one.error) std::rethrow_exception(one.error);
-    const auto file = (directory / "records" / (one.name + ".json")).string();
-    if (!one.held) {
-      warn(file + ": is ignored, because no manifest has such a replicate; remove the file, or correct its name");
-    } else if (one.standing == Standing::foreign) {
-      const bool is_earlier = is_requested(requests, one.name, one.held->summary.spec_digest);
-      (is_earlier ? superseded : foreign).push_back(one.name);
-    } else if (one.standing == Standing::requested) {
-      if (!one.is_asked_for) unasked.push_back(one.name);
-      use(*std::move(one.held));
+  read_in_order(names, [&](const std::string& name) -> std::function<void()> {
+    std::optional<std::string> digest;
+    bool is_asked_for = requests.empty();
+    for (const auto& plan : requests) {
+      const auto place = plan.place_of(name);
+      if (place && !digest) digest = plan.digest(*place);
+      is_asked_for = place && plan.requests(*place);
+      if (is_asked_for) break;
     }
-  };
-  // At most four records for each thread are in memory.
-  tbb::parallel_pipeline(4 * static_cast<std::size_t>(tbb::info::default_concurrency()),
-                         tbb::make_filter<void, std::string>(tbb::filter_mode::serial_in_order, next) &
-                             tbb::make_filter<std::string, Read>(tbb::filter_mode::parallel, read) &
-                             tbb::make_filter<Read, void>(tbb::filter_mode::serial_in_order, pass_on));
+    std::optional<RecordedReplicate> held;
+    try {
+      held = read_record(directory, name, kept);
+    } catch (const InputError&) {
+      if (digest || requests.empty()) throw;
+    }
+    const auto standing = held && !requests.empty() ? standing_of(*held, digest) : Standing::requested;
+    return [&, name, is_asked_for, standing, held = std::move(held)]() mutable {
+      if (!held) {
+        warn((directory / "records" / (name + ".json")).string() +
+             ": is ignored, because no manifest has such a replicate; remove the file, or correct its name");
+      } else if (standing == Standing::foreign) {
+        const bool is_earlier = is_requested(requests, name, held->summary.spec_digest);
+        (is_earlier ? superseded : foreign).push_back(name);
+      } else if (standing == Standing::requested) {
+        if (!is_asked_for) unasked.push_back(name);
+        use(*std::move(held));
+      }
+    };
+  });
   const auto report = [&](const std::vector<std::string>& these, const char* problem, const char* effect) {
     if (these.empty()) return;
     warn(fmt::format("{}: {} {} of the records, for example {}; they {}", directory.string(), problem, these.size(),

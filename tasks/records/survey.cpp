@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
+#include <utility>
 
 #include "tasks/io/file.hpp"
 #include "tasks/io/input_error.hpp"
@@ -44,59 +46,75 @@ UnderWay under_way(const fs::path& path) {
 /// CPU times of records, and their estimates.
 struct CpuTimes {
   double measured = 0, estimated = 0;
+  std::optional<double> of_one;  ///< estimate for one replicate
 
   double ratio(double otherwise) const { return measured > 0 && estimated > 0 ? measured / estimated : otherwise; }
 };
+using TimesOfPoints = std::vector<CpuTimes>;
 
-/// Counts a record of this plan.
-void count(const RecordSummary& summary, const Plan& plan, const Plan::Place& place, const ReplicateSpec& spec,
-           Survey& survey, CpuTimes& times) {
+/// The place of a record in a plan that requests its name.
+struct Asked {
+  const Plan* plan;
+  Plan::Place place;
+  Standing standing;
+};
+
+/// Counts a record that has a place in the plan of a survey.
+void count(const RecordedReplicate& held, const Asked& asked, Survey& survey, TimesOfPoints& times_of_points) {
+  const auto& summary = held.summary;
+  const auto& place = asked.place;
   auto& point = survey.points[place.point];
+  if (asked.standing == Standing::foreign) {
+    ++point.taken;
+    point.goal_values[place.replicate] = std::nullopt;
+  }
+  if (asked.standing != Standing::requested) return;
+  survey.lacking += !lacks(held, asked.plan->manifest().measures).empty();
   ++point.recorded;
-  if (const auto& goal = plan.manifest().replicates.goal) {
+  if (const auto& goal = asked.plan->manifest().replicates.goal) {
     point.goal_values[place.replicate] =
-        has_any(summary, plan.exclude()) ? std::nullopt : summary.values[*quantity_index(goal->quantity)];
+        has_any(summary, asked.plan->exclude()) ? std::nullopt : summary.values[*quantity_index(goal->quantity)];
   }
   point.failed += summary.failed;
   point.flagged += summary.flagged;
   for (const auto flag : summary.flags) ++survey.flags[flag];
   if (summary.failed) return;
+  auto& times = times_of_points[place.point];
+  if (!times.of_one) times.of_one = estimated_cost(asked.plan->at(place.point, 0), false).cpu_seconds;
   times.measured += summary.cpu_seconds;
-  times.estimated += estimated_cost(spec, false).cpu_seconds;
+  times.estimated += *times.of_one;
   ++survey.calibration_records;
 }
-
-using TimesOfPoints = std::vector<CpuTimes>;
 
 void survey_records(const fs::path& directory, const std::vector<Plan>& plans, Surveys& surveys,
                     std::vector<TimesOfPoints>& times) {
   const bool with_paths = !plans.empty() && plans.front().manifest().keep_path;
-  for (const auto& name : names_in(directory / "records")) {
+  const bool has_goal = std::any_of(plans.begin(), plans.end(),
+                                    [](const Plan& plan) { return plan.manifest().replicates.goal.has_value(); });
+  const Abridgement kept{States::nearest, has_goal ? Keys::quantities : Keys::none};
+  read_in_order(names_in(directory / "records"), [&](const std::string& name) -> std::function<void()> {
     try {
-      const auto held = read_record(directory, name, Abridgement{States::nearest});
+      auto held = read_record(directory, name, kept);
       check_companions(directory, held, with_paths);
-      bool is_asked_for = false;
+      std::vector<std::optional<Asked>> asked(plans.size());
       for (std::size_t k = 0; k < plans.size(); ++k) {
         const auto place = plans[k].place_of(name);
-        if (!place || !plans[k].requests(*place)) continue;
-        const auto spec = plans[k].at(place->point, place->replicate);
-        if (const auto standing = standing_of(held, spec); standing != Standing::requested) {
-          if (standing == Standing::foreign) {
-            auto& point = surveys.of_plans[k].points[place->point];
-            ++point.taken;
-            point.goal_values[place->replicate] = std::nullopt;
-          }
-          continue;
-        }
-        is_asked_for = true;
-        surveys.of_plans[k].lacking += !lacks(held, spec.measures).empty();
-        count(held.summary, plans[k], *place, spec, surveys.of_plans[k], times[k][place->point]);
+        if (place && plans[k].requests(*place))
+          asked[k] = {&plans[k], *place, standing_of(held, plans[k].digest(*place))};
       }
-      if (!is_asked_for) surveys.unasked.push_back(name);
+      return [&, name, held = std::move(held), asked = std::move(asked)] {
+        bool is_requested = false;
+        for (std::size_t k = 0; k < asked.size(); ++k) {
+          if (!asked[k]) continue;
+          is_requested = is_requested || asked[k]->standing == Standing::requested;
+          count(held, *asked[k], surveys.of_plans[k], times[k]);
+        }
+        if (!is_requested) surveys.unasked.push_back(name);
+      };
     } catch (const InputError& damage) {
-      surveys.damaged.emplace_back(damage.what());
+      return [&, text = std::string(damage.what())] { surveys.damaged.push_back(text); };
     }
-  }
+  });
 }
 
 void calibrate(const TimesOfPoints& times, Survey& survey) {

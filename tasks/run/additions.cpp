@@ -103,7 +103,8 @@ Additions additions(const fs::path& directory, const Requests& requests, const s
     const auto held = read_record(directory, name);
     if (lacks(held, measures).empty()) continue;
     auto spec = requested(requests, name);
-    if (const auto standing = standing_of(held, spec); standing != Standing::requested) {
+    const auto digest = spec ? std::optional(spec_digest(*spec)) : std::nullopt;
+    if (const auto standing = standing_of(held, digest); standing != Standing::requested) {
       const bool is_superseded = standing == Standing::superseded;
       result.impossible.push_back(
           {name, is_superseded ? "it failed, and its settings have changed since" : std::string(other_manifest)});

@@ -52,9 +52,10 @@ RecordedReplicate own_record(const ExportArguments& arguments, const Requests& r
                              const std::optional<Abridgement>& kept) {
   auto held = read_record(arguments.directory, name, kept);
   const auto spec = requested(requests, name);
-  if (!requests.empty() && standing_of(held, spec) == Standing::foreign)
+  const auto digest = spec ? std::optional(spec_digest(*spec)) : std::nullopt;
+  if (!requests.empty() && standing_of(held, digest) == Standing::foreign)
     throw InputError({record_file(arguments, name), "/provenance/spec_digest", std::string(other_manifest),
-                      spec ? spec_digest(*spec) : "", ""});
+                      digest.value_or(""), ""});
   return held;
 }
 

@@ -76,6 +76,7 @@ TEST(Plan, NamesAreFileNamesAndLeadBack) {
       const auto place = plan.place_of(name);
       ASSERT_TRUE(place) << name;
       EXPECT_EQ(place->point * 3 + static_cast<std::size_t>(place->replicate), k) << name;
+      EXPECT_EQ(plan.digest(*place), spec_digest(plan[k])) << name;
     }
     EXPECT_EQ(names.size(), plan.size());
     // A name that would be too long contains a hash instead of its parameters.

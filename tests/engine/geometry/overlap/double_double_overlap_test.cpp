@@ -16,7 +16,7 @@ namespace {
 using namespace testing_pairs;
 using Eigen::Vector3d;
 
-constexpr double limit = 1e-14, pointed_limit = 1e-12;
+constexpr double limit = 1e-14;
 constexpr int cases = 20;
 
 QuadOverlap in_lab(const ConvexSolid& a, const ConvexSolid& b, const Pose& pose_a, const Pose& pose_b) {
