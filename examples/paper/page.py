@@ -112,7 +112,7 @@ CLAIMS = {
         min, max)] == [SOLIDS[2], SOLIDS[0]],
     "C of 400 octahedra, icosahedra and dodecahedra agrees with 12 within the errors": lambda data: [
         agreement(data, s, "fit") for s in SOLIDS] == ["above", "agrees", "agrees", "agrees"],
-    "(tetrahedra), less than other protocols change them:": lambda data: float(largest_offset(data)) < max(
+    "(tetrahedra), while other protocols change them by": lambda data: float(largest_offset(data)) < max(
         offsets_of(data, SOLIDS[0])) + 0.0006 and all(
         abs(density_changes(data, s)["least"]["mean"]) > max(offsets_of(data, s)) for s in SOLIDS),
     "(dodecahedra) to": lambda data: [end(SOLIDS, key=lambda s: density_changes(data, s)[which]["mean"]) for which, end in (

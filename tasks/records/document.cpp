@@ -58,7 +58,9 @@ void describe_timing(Fields& field, Timing& timing, std::map<std::string, double
     for (const auto stage : names) {
       const std::string name(stage);
       const auto meaning = name == "jam" ? "CPU time of the protocol." : "CPU time of the measure `" + name + "`.";
-      inner.custom(name, {nullptr, nullptr, {{"type", "number"}, {"minimum", 0}}, "number ≥ 0"}, meaning)
+      inner
+          .custom(name, {[] { return Json(nullptr); }, nullptr, {{"type", "number"}, {"minimum", 0}}, "number ≥ 0"},
+                  meaning)
           .optional()
           .unit("s");
     }
