@@ -183,11 +183,10 @@ extending:
 # The same bytes from g++ and clang, with AVX2 and for every x86-64 processor, from arm64 and, as root, from Debian 13. An
 # emulator runs arm64, with tests of arithmetic, overlaps and factorisations, and those of arithmetic without FMA.
 REPRODUCIBLE = tests/reproducibility
-WITHOUT_FMA  = qemu-x86_64 -cpu Nehalem
 FACTOR_TESTS = *Cholesky*:DefiniteSolver*:FactorThreads*-*FailedPivot*:*NewFactor*
 .PHONY: reproducibility
 reproducibility: build $(ARM64)/root
-	$(call install,$(PROGRAM_PACKAGES) $(CLANG_PACKAGES) python3)
+	$(call install,$(PROGRAM_PACKAGES) $(CLANG_PACKAGES) libgtest-dev python3)
 	cmake -S . -B $(BUILD)-clang -G Ninja -DCMAKE_CXX_COMPILER=clang++-$(CLANG) -DISOJAM_NATIVE=ON $(ONLY_STUDIES)
 	cmake -S . -B $(BUILD)-clang-portable -G Ninja -DCMAKE_CXX_COMPILER=clang++-$(CLANG) -DISOJAM_NATIVE=OFF $(ONLY_STUDIES)
 	cmake -S . -B $(BUILD)-portable -G Ninja -DISOJAM_NATIVE=OFF -DISOJAM_TESTS=ON -DISOJAM_EXTRAS=OFF
@@ -195,7 +194,7 @@ reproducibility: build $(ARM64)/root
 	for folder in $(BUILD)-clang $(BUILD)-clang-portable $(BUILD)-portable $(ARM64); do \
 	  cmake --build $$folder -j $(JOBS) --target isojam || exit 1; done
 	cmake --build $(BUILD)-portable -j $(JOBS) --target elementary_tests
-	$(WITHOUT_FMA) $(BUILD)-portable/tests/engine/arithmetic/elementary_tests --gtest_brief=1
+	qemu-x86_64 -cpu Nehalem $(BUILD)-portable/tests/engine/arithmetic/elementary_tests --gtest_brief=1
 	cmake --build $(ARM64) -j $(JOBS) --target elementary_tests geometry_tests solve_tests
 	for tests in arithmetic/elementary_tests geometry/geometry_tests 'solve/solve_tests --gtest_filter=$(FACTOR_TESTS)'; do \
 	  $(ON_ARM64) $(ARM64)/tests/engine/$$tests --gtest_brief=1 || exit 1; done
