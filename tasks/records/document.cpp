@@ -55,14 +55,11 @@ void describe_timing(Fields& field, Timing& timing, std::map<std::string, double
     return list;
   }();
   const auto describe_stages = [](Fields& inner) {
+    const Custom time{[] { return Json(nullptr); }, nullptr, {{"type", "number"}, {"minimum", 0}}, "number ≥ 0"};
     for (const auto stage : names) {
       const std::string name(stage);
       const auto meaning = name == "jam" ? "CPU time of the protocol." : "CPU time of the measure `" + name + "`.";
-      inner
-          .custom(name, {[] { return Json(nullptr); }, nullptr, {{"type", "number"}, {"minimum", 0}}, "number ≥ 0"},
-                  meaning)
-          .optional()
-          .unit("s");
+      inner.custom(name, time, meaning).optional().unit("s");
     }
   };
   Custom value{[&stages] { return Json(stages); },

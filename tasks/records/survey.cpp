@@ -64,10 +64,7 @@ void count(const RecordedReplicate& held, const Asked& asked, Survey& survey, Ti
   const auto& summary = held.summary;
   const auto& place = asked.place;
   auto& point = survey.points[place.point];
-  if (asked.standing == Standing::foreign) {
-    ++point.taken;
-    point.goal_values[place.replicate] = std::nullopt;
-  }
+  if (asked.standing == Standing::foreign) ++point.taken, point.goal_values[place.replicate] = std::nullopt;
   if (asked.standing != Standing::requested) return;
   survey.lacking += !lacks(held, asked.plan->manifest().measures).empty();
   ++point.recorded;

@@ -61,6 +61,12 @@ TEST_F(Crash, StatusEstimatesNoTimeAfterTheEndOfTheStoppingRule) {
   fs::remove(here_ / "ends/records" / (names_in(here_ / "ends/records").at(0) + ".json"));
   const auto missing = isojam({"status", "ends"}, here_.path());
   EXPECT_NE(missing.out.find("the missing replicates need at most "), std::string::npos) << missing.out;
+  // Of two packings, the interval is too wide, so a third one is needed.
+  json["protocol"].erase("max_steps"), json["sweep"]["solid"] = {"dodecahedron"}, json["replicates"]["quantity"] = "Z";
+  test::write_text(here_ / "goes_on.json", json.dump());
+  ASSERT_EQ(isojam({"run", "goes_on.json", "-o", "goes_on"}, here_.path()).exit_code, 0);
+  fs::remove(here_ / "goes_on/records/dodecahedron-N24-r0002.json");
+  EXPECT_NE(isojam({"status", "goes_on"}, here_.path()).out.find("need at most "), std::string::npos);
 }
 
 TEST_F(Crash, MissingResultsAreNoUsageError) {
