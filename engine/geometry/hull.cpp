@@ -1,6 +1,7 @@
 #include "engine/geometry/hull.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -111,7 +112,23 @@ class Joining {
     return t;
   }
 
+  /// False if some corners show in double precision that no plane is near all of them. Faces in quite different planes
+  /// need not be joined for that.
+  bool may_join(const Part& a, const Part& b) const {
+    const Part &small = a.vertices.size() < b.vertices.size() ? a : b, &large = &small == &a ? b : a;
+    const Eigen::Vector3d normal = rounded(a.area + b.area);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    const auto look_at = [&](int v) {
+      const double height = normal.dot(points_.near(v));
+      low = std::min(low, height), high = std::max(high, height);
+    };
+    for (const int v : small.vertices) look_at(v);
+    for (std::size_t k = 0; k < 3; ++k) look_at(large.vertices[k]);
+    return high - low <= 2 * (tolerance_ + 1e-15) * normal.norm();
+  }
+
   void consider(std::size_t a, std::size_t b) {
+    if (!may_join(parts_[a], parts_[b])) return;
     const Part both = joined(parts_[a], parts_[b]);
     const double distance = largest_distance(both, points_);
     if (distance <= tolerance_)
@@ -163,11 +180,10 @@ FaceLoop loop_of(const std::map<int, int>& outline, const std::vector<int>& face
   return loop;
 }
 
-FaceLoop three_smallest(const FaceLoop& face) {
-  FaceLoop sorted = face;
-  std::partial_sort(sorted.begin(), sorted.begin() + 3, sorted.end());
-  sorted.resize(3);
-  return sorted;
+std::array<int, 3> three_smallest(const FaceLoop& face) {
+  std::array<int, 3> smallest{};
+  std::partial_sort_copy(face.begin(), face.end(), smallest.begin(), smallest.end());
+  return smallest;
 }
 
 }  // namespace
@@ -197,15 +213,38 @@ std::vector<FaceLoop> joined_faces(const HullPoints& points, std::span<const Hul
   return faces;
 }
 
-void refuse_equal_points(const HullPoints& points, double tolerance) {
-  for (int k = 0; k < points.size(); ++k) {
-    for (int other = 0; other < k; ++other) {
-      // Most pairs are far apart. The coordinates near() are below 1/2, so their rounding errors are below 1e-16.
-      if ((points.near(k) - points.near(other)).cwiseAbs().maxCoeff() > tolerance + 1e-15) continue;
-      if (norm(points[k] - points[other]) <= tolerance)
-        throw NoSolid("vertex " + std::to_string(k) + " is given twice: it is equal to vertex " + std::to_string(other),
-                      NoSolid::Cause::equal_points, k);
+std::vector<std::size_t> welded(std::span<const Eigen::Vector3d> points, double distance) {
+  const std::size_t none = points.size();
+  std::vector<std::size_t> first(points.size(), none), order(points.size()), place(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return points[a].x() < points[b].x(); });
+  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = k;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (first[k] != none) continue;
+    const auto take = [&](std::size_t other) {
+      if (first[other] == none && (points[k] - points[other]).norm() <= distance) first[other] = k;
+      return std::abs(points[k].x() - points[other].x()) <= distance;
+    };
+    first[k] = k;
+    for (std::size_t at = place[k]; at-- > 0 && take(order[at]);) {
     }
+    for (std::size_t at = place[k] + 1; at < order.size() && take(order[at]); ++at) {
+    }
+  }
+  return first;
+}
+
+void refuse_equal_points(const HullPoints& points, double tolerance) {
+  std::vector<Eigen::Vector3d> near;
+  for (int k = 0; k < points.size(); ++k) near.push_back(points.near(k));
+  // The coordinates near() are below 1/2, so their rounding errors are below 1e-16.
+  const std::vector<std::size_t> first = welded(near, tolerance + 1e-15);
+  for (int k = 0; k < points.size(); ++k) {
+    const auto other = static_cast<int>(first[static_cast<std::size_t>(k)]);
+    if (other != k && norm(points[k] - points[other]) <= tolerance)
+      throw NoSolid("vertex " + std::to_string(k) + " is given twice: it is equal to vertex " + std::to_string(other),
+                    NoSolid::Cause::equal_points, k);
   }
 }
 

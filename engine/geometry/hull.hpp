@@ -51,6 +51,10 @@ Quad rounding_tolerance(std::span<const Quad3> points);
 /// not bound a convex polyhedron.
 std::vector<FaceLoop> joined_faces(const HullPoints& points, std::span<const HullTriangle> triangles, double tolerance);
 
+/// For each point, the index of its representative: the first representative that is at most `distance` away, or the
+/// point itself if there is none. The time is O(n²) in the worst case, if all points have the same x.
+std::vector<std::size_t> welded(std::span<const Eigen::Vector3d> points, double distance);
+
 /// Throws NoSolid if two points are nearer than `tolerance` (in units of points.unit()).
 void refuse_equal_points(const HullPoints& points, double tolerance);
 

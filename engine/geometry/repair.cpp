@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/arithmetic/lanes.hpp"
 #include "engine/geometry/corner_removal.hpp"
 #include "engine/geometry/hull.hpp"
 #include "engine/geometry/planar_faces.hpp"
@@ -21,12 +22,20 @@ using Eigen::Vector3d;
 
 /// Largest distance of two of the points.
 double diameter(const HullPoints& points, const std::vector<int>& use) {
-  double largest = 0;
-  for (std::size_t a = 0; a < use.size(); ++a) {
-    for (std::size_t b = 0; b < a; ++b)
-      largest = std::max(largest, (points.near(use[a]) - points.near(use[b])).squaredNorm());
+  std::array<std::vector<double>, 3> all;
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (const int k : use) all[c].push_back(points.near(k)[static_cast<int>(c)]);
+    all[c].resize((use.size() + 3) / 4 * 4, all[c].front());
   }
-  return std::sqrt(largest);
+  Lanes largest = Lanes::all(0);
+  for (const int k : use) {
+    const auto along = [&, p = points.near(k)](int c, std::size_t b) {
+      const Lanes length = Lanes::load(&all[static_cast<std::size_t>(c)][b]) - Lanes::all(p[c]);
+      return length * length;
+    };
+    for (std::size_t b = 0; b < all[0].size(); b += 4) largest = max(largest, along(0, b) + along(1, b) + along(2, b));
+  }
+  return std::sqrt(greatest(largest).first());
 }
 
 /// Distance of a point from a convex solid; 0 inside it.
@@ -98,18 +107,19 @@ class Repair {
       use_ = hull_corners_;
     }
     if (welds && weld(std::max(merge_, tolerance_))) triangles = hull_of_welded();
-    const std::vector<FaceLoop> faces = joined_faces(points_, triangles, tolerance_);
+    std::vector<FaceLoop> faces = joined_faces(points_, triangles, tolerance_);
     expect_corners(faces);
     keep_corners_of(faces);
     if (options_.corners == 0 && merge_ == 0) refuse_large(use_.size(), faces);
-    triangles = hull_triangles(points_, use_);
+    if (report_.dropped > 0) triangles = hull_triangles(points_, use_);
     if (options_.corners > 0) {
       const std::size_t before = use_.size();
       triangles = without_smallest_corners(points_, triangles, options_.corners);
       hull_corners_ = use_ = corners_of(triangles);
       report_.removed_corners = static_cast<int>(before - use_.size());
     }
-    join(triangles);
+    if (report_.dropped + report_.removed_corners > 0) faces = joined_faces(points_, triangles, tolerance_);
+    join(triangles, std::move(faces));
     const HullPoints result(widened(vertices_));
     const Quad unit = points_.unit(), scale = result.unit() / unit;
     const Quad left = scale * scale * scale * six_volumes(result, hull_faces(widened(vertices_)));
@@ -168,6 +178,10 @@ class Repair {
 
   /// Largest distance of a point from the surface of the hull with these faces, and the index of this point.
   std::pair<double, int> largest_depth(const std::vector<FaceLoop>& faces) const {
+    std::vector<int> every(given_.size()), among;
+    std::iota(every.begin(), every.end(), 0);
+    std::ranges::set_difference(options_.hull ? every : use_, corners_of(faces), std::back_inserter(among));
+    if (among.empty()) return {0, use_.front()};
     std::vector<Quad3> all;
     for (int k = 0; k < points_.size(); ++k) all.push_back(points_[k]);
     std::vector<Vector3d> normals;
@@ -179,11 +193,6 @@ class Repair {
     }
     double largest = 0;
     int deepest = use_.front();
-    std::vector<int> among = use_;
-    if (options_.hull) {
-      among.resize(given_.size());
-      std::iota(among.begin(), among.end(), 0);
-    }
     for (const int k : among) {
       double depth = diameter_;
       for (std::size_t f = 0; f < normals.size() && depth > largest; ++f)
@@ -194,8 +203,7 @@ class Repair {
   }
 
   /// Joins faces within the distance that is allowed, and sets the vertices.
-  void join(const std::vector<HullTriangle>& triangles) {
-    std::vector<FaceLoop> faces = joined_faces(points_, triangles, tolerance_);
+  void join(const std::vector<HullTriangle>& triangles, std::vector<FaceLoop> faces) {
     if (merge_ > tolerance_) {
       std::vector<FaceLoop> joined = joined_faces(points_, triangles, merge_);
       report_.joined_faces = static_cast<int>(faces.size()) - static_cast<int>(joined.size());
@@ -267,67 +275,55 @@ class Repair {
 
 }  // namespace
 
-std::vector<std::size_t> welded(std::span<const Vector3d> points, double distance) {
-  const std::size_t none = points.size();
-  std::vector<std::size_t> first(points.size(), none), order(points.size()), place(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return points[a].x() < points[b].x(); });
-  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = k;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (first[k] != none) continue;
-    const auto take = [&](std::size_t other) {
-      if (first[other] == none && (points[k] - points[other]).norm() <= distance) first[other] = k;
-      return std::abs(points[k].x() - points[other].x()) <= distance;
-    };
-    first[k] = k;
-    for (std::size_t at = place[k]; at-- > 0 && take(order[at]);) {
-    }
-    for (std::size_t at = place[k] + 1; at < order.size() && take(order[at]); ++at) {
-    }
-  }
-  return first;
-}
-
 RepairedSolid repaired(std::span<const Vector3d> points, const RepairOptions& options) {
   return Repair(points, options).run();
 }
 
 std::optional<RepairOptions> tried_repair(std::span<const Vector3d> points, const RepairOptions& options,
                                           NoSolid::Cause cause) {
-  const auto change = [&](const RepairOptions& changed) -> std::optional<double> {
+  auto refused = NoSolid::Cause::other;
+  const auto change = [&](RepairOptions changed) -> std::optional<double> {
+    changed.measures_depth = false;
     try {
       return std::abs(repaired(points, changed).report.volume_change);
-    } catch (const NoSolid&) {
+    } catch (const NoSolid& error) {
+      refused = error.cause();
       return std::nullopt;
     }
   };
+  constexpr std::size_t many = 1000;  // each try takes long
   RepairOptions changed = options;
   if (cause == NoSolid::Cause::equal_points || cause == NoSolid::Cause::not_a_corner) {
     changed.hull = true;
     if (change(changed)) return changed;
   } else if (cause == NoSolid::Cause::too_coarse || cause == NoSolid::Cause::not_planar) {
-    for (const double factor : {0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 1e-3, 1e-4}) {
-      changed.merge = factor * options.merge;
-      if (options.merge > 0 && change(changed)) return changed;
+    // With a smaller length, a solid that is already too large remains so.
+    constexpr std::array factors{.9,  .7,  .5,  .35,  .25,  .2,  .15,  .12,  .1,   .08,  .06,  .05,
+                                 .04, .03, .02, .015, .012, .01, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4};
+    changed.merge = factors.back() * options.merge;
+    const bool any = options.merge > 0 && (options.corners == 0 || change(changed));
+    for (std::size_t k = 0; any && k < factors.size() && refused != NoSolid::Cause::too_large; ++k) {
+      changed.merge = factors[k] * options.merge;
+      if ((points.size() <= many || k % 3 == 2) && change(changed)) return changed;
     }
   } else if (cause != NoSolid::Cause::too_large) {
     return std::nullopt;
   }
-  // Smaller lengths leave faces that are almost in one plane. So many points are hardly ever welded below 1e-4.
-  constexpr std::size_t many = 1000;
-  for (const double merge : {1e-6, 1e-5, 1e-4, 1e-3, largest_merge}) {
-    changed = options;
-    changed.merge = merge;
-    if (cause != NoSolid::Cause::too_large || merge <= options.merge || (points.size() > many && merge < 1e-4))
-      continue;
-    if (change(changed)) return changed;
+  changed = options;
+  changed.merge = largest_merge;
+  const bool is_too_large = cause == NoSolid::Cause::too_large;
+  if (is_too_large && options.merge < largest_merge && (change(changed) || refused != cause)) {
+    // Smaller lengths leave faces that are almost in one plane. So many points are hardly ever welded below 1e-4.
+    for (const double merge : {1e-6, 1e-5, 1e-4, 1e-3, largest_merge}) {
+      changed.merge = merge;
+      if (merge > options.merge && (points.size() <= many || merge >= 1e-4) && change(changed)) return changed;
+    }
   }
   for (const int corners : {ConvexSolid::max_vertices, 112, 96, 80, ConvexSolid::max_edges / 3 + 2, 0}) {
     changed = options;
     changed.corners = corners == 0 ? options.corners : corners;
     changed.max_volume_change = 1;
-    if (corners > 0 && (options.corners > 0 || cause != NoSolid::Cause::too_large)) continue;
+    if ((corners > 0) != is_too_large || (corners > 0 && options.corners > 0)) continue;
     if (points.size() > many && corners > ConvexSolid::max_edges / 3 + 2) continue;
     const auto volume = change(changed);
     if (!volume) continue;

@@ -60,10 +60,6 @@ struct RepairedSolid {
   RepairReport report;  ///< the repairs that were made
 };
 
-/// For each point, the index of its representative: the first representative that is at most `distance` away, or the
-/// point itself if there is none. The time is O(n²) in the worst case, if all points have the same x.
-std::vector<std::size_t> welded(std::span<const Eigen::Vector3d> points, double distance);
-
 /// Repairs the convex hull of points: omits inner points, welds points, removes corners and joins faces, as far as
 /// `options` allows it. Points that are no longer corners are then omitted too. Throws NoSolid (hull.hpp) if the points
 /// span no volume, if a point is not a corner and options.hull is false, if the repairs move corners or change the

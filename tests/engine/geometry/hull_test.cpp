@@ -115,14 +115,6 @@ TEST(HullFaces, AreThoseOfASearchOverAllTriples) {
   std::printf("%d solids have the faces of all triples\n", solids);
 }
 
-TEST(HullTriangles, OfFiveThousandPoints) {
-  RandomStream random{83};
-  std::vector<Vector3d> points = on_sphere(2500, random);
-  for (int k = 0; k < 2500; ++k) points.push_back(.9 * Vector3d(on_sphere(1, random).front()));
-  const HullPoints exact(widened(points));
-  EXPECT_EQ(hull_triangles(exact, all_of(exact)).size(), 2 * 2500 - 4);
-}
-
 double volume(const HullPoints& points, const std::vector<HullTriangle>& triangles) {
   double sum = 0;
   for (const HullTriangle& t : triangles) sum += points.near(t[0]).dot(points.near(t[1]).cross(points.near(t[2]))) / 6;

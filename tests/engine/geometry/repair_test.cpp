@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <numbers>
 
 #include "engine/geometry/hull.hpp"
 #include "engine/geometry/solids/named_solids.hpp"
@@ -81,23 +80,6 @@ TEST(Repair, NamesThePointThatIsNoCorner) {
   EXPECT_EQ(repaired(cube, {.hull = true}).vertices.size(), 8U);
 }
 
-TEST(Repair, WeldsCornersOfTriangles) {
-  RandomStream random{95};
-  const Points exact = built_in("tetrahedron");
-  Points corners;
-  for (std::size_t face = 0; face < 4; ++face) {
-    for (std::size_t v = 0; v < 4; ++v) {
-      if (v != face) corners.push_back(exact[v] + noise(1e-6, random));
-    }
-  }
-  const RepairedSolid repair = repaired(corners, {.merge = 1e-5});
-  EXPECT_EQ(repair.vertices.size(), 4U);
-  EXPECT_EQ(repair.report.welded, 8);
-  EXPECT_LT(repair.report.largest_move, 3e-6);
-  EXPECT_GT(repair.report.largest_move, 1e-8);
-  for (const Vector3d& v : repair.vertices) EXPECT_NE(std::find(corners.begin(), corners.end(), v), corners.end());
-}
-
 TEST(Repair, JoinsSubdividedFaces) {
   RandomStream random{96};
   for (const double size : {1e-12, 1e-9, 1e-6, 1e-4}) {
@@ -139,33 +121,6 @@ TEST(Repair, ReducesStones) {
     std::printf("%d corners: the volume changes by %.1f %%\n", corners, 100 * before);
     for (const Vector3d& v : repair.vertices) EXPECT_NE(std::find(stone.begin(), stone.end(), v), stone.end());
     EXPECT_EQ(ConvexSolid("stone", repair.vertices).vertices().size(), repair.vertices.size());
-  }
-}
-
-/// Caps of a sphere, with a rim of 900 points.
-Points lens() {
-  Points points{{0, 0, .3}, {0, 0, -.3}, {.5, 0, .25}, {-.5, 0, .25}, {0, .5, -.25}, {0, -.5, -.25}};
-  for (int k = 0; k < 900; ++k)
-    points.emplace_back(std::cos(k * std::numbers::pi / 450), std::sin(k * std::numbers::pi / 450), 0);
-  return points;
-}
-
-TEST(Repair, MovesNoCornerByMoreThanFiveLengths) {
-  for (const double merge : {1e-4, 0.001, 0.003, 0.01}) {
-    const RepairOptions options{.merge = merge, .hull = true};
-    try {
-      const RepairedSolid repair = repaired(lens(), options);
-      std::printf("merge %g: %zu vertices, largest move %.3g lengths, volume %+.3f %%\n", merge, repair.vertices.size(),
-                  repair.report.largest_move / merge, 100 * repair.report.volume_change);
-      EXPECT_LE(repair.report.largest_move, 5 * merge);
-      EXPECT_LE(std::abs(repair.report.volume_change), 0.01);
-    } catch (const NoSolid& error) {
-      const auto other = tried_repair(lens(), options, error.cause());
-      ASSERT_TRUE(other) << error.what();
-      std::printf("merge %g: %s; instead merge %g, corners %d, max_volume_change %g\n", merge, error.what(),
-                  other->merge, other->corners, other->max_volume_change);
-      EXPECT_LE(std::abs(repaired(lens(), *other).report.volume_change), other->max_volume_change);
-    }
   }
 }
 
