@@ -153,8 +153,9 @@ SolidDefinition read_half_spaces(const JsonPlace& place, const std::string& name
     corners = corners_between(read_planes(place));
     options.hull = true;
     const auto result = repaired(corners, options);
-    // Corners in which several planes meet were computed several times.
-    return {made_solid(place, name, result.vertices), {.volume_change = result.report.volume_change}};
+    // Corners in which several planes meet were computed several times: without a key, nothing else was repaired.
+    const bool repairs = options.merge > 0 || options.corners > 0;
+    return {made_solid(place, name, result.vertices), repairs ? result.report : RepairReport{}};
   } catch (const ContentError& error) {
     place.refuse_with_remedy(error.what(), error.remedy());
   } catch (const NoSolid& error) {

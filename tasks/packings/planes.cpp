@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "engine/geometry/quad.hpp"
 #include "tasks/packings/content_error.hpp"
@@ -14,28 +16,15 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double parallel_planes = 1e-9;   ///< least volume that three unit normals span
 constexpr double plane_tolerance = 1e-11;  ///< of a height above a plane, relative to the size
+constexpr double shortest_edge = 1e-9;     ///< relative to the size
 
 Vector3d intersection(const Eigen::Vector4d& a, const Eigen::Vector4d& b, const Eigen::Vector4d& c) {
   const auto normal = [](const Eigen::Vector4d& plane) { return Quad3{plane[0], plane[1], plane[2]}; };
   const Quad3 bc = cross(normal(b), normal(c)), ca = cross(normal(c), normal(a)), ab = cross(normal(a), normal(b));
   return rounded(1 / dot(normal(a), bc) * (Quad(a[3]) * bc + Quad(b[3]) * ca + Quad(c[3]) * ab));
-}
-
-/// Without a bound there is a direction v with n·v ≤ 0 for all planes; it is then also so for the cross product of two
-/// normals, or for one that is perpendicular to all of them.
-bool is_bounded(std::span<const Vector3d> normals) {
-  const auto recedes = [&](const Vector3d& v) {
-    return std::all_of(normals.begin(), normals.end(), [&](const Vector3d& n) { return n.dot(v) <= plane_tolerance; });
-  };
-  for (std::size_t a = 0; a < normals.size(); ++a) {
-    for (std::size_t b = 0; b < a; ++b) {
-      const Vector3d v = normals[a].cross(normals[b]);
-      if (v.norm() > parallel_planes && (recedes(v.normalized()) || recedes(-v.normalized()))) return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace
@@ -52,25 +41,39 @@ std::vector<Vector3d> corners_between(std::span<const Eigen::Vector4d> planes) {
     offsets.push_back(plane[3] / length);
     size = std::max(size, std::abs(offsets.back()));
   }
-  if (!is_bounded(normals))
-    throw ContentError("the planes do not bound a solid on all sides", "add the missing planes");
-  const auto n = planes.size();
-  for (std::size_t a = 0; a < n; ++a) {
+  // Each edge is the part of the line of two planes that is on the inner side of all others.
+  for (std::size_t a = 0; a < planes.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       const Vector3d line = normals[a].cross(normals[b]);
-      for (std::size_t c = 0; c < b; ++c) {
-        if (std::abs(line.dot(normals[c])) < parallel_planes) continue;
-        const Vector3d near = (offsets[a] * normals[b].cross(normals[c]) + offsets[b] * normals[c].cross(normals[a]) +
-                               offsets[c] * line) /
-                              line.dot(normals[c]);
-        const double margin = plane_tolerance * std::max(size, near.norm());
-        bool inside = true;
-        for (std::size_t k = 0; k < n && inside; ++k) inside = normals[k].dot(near) <= offsets[k] + margin;
-        if (inside) corners.push_back(intersection(planes[a], planes[b], planes[c]));
+      if (line.norm() < parallel_planes) continue;
+      const Vector3d foot = (offsets[a] * normals[b] - offsets[b] * normals[a]).cross(line) / line.squaredNorm();
+      const double scale = std::max(size, foot.norm());
+      std::pair<double, std::size_t> low{-infinity, a}, high{infinity, a};
+      for (std::size_t c = 0; c < planes.size() && low.first <= high.first; ++c) {
+        if (c == a || c == b) continue;
+        const double along = normals[c].dot(line), room = offsets[c] - normals[c].dot(foot);
+        if (std::abs(along) < parallel_planes) {
+          if (room < -plane_tolerance * scale) high.first = -infinity;
+        } else if (along > 0) {
+          high = std::min(high, {room / along, c});
+        } else {
+          low = std::max(low, {room / along, c});
+        }
+      }
+      // In the tip of a pyramid, the lines of nearly all pairs meet, but only neighbours have an edge.
+      const double length = (high.first - low.first) * line.norm();
+      if (!(length > shortest_edge * scale)) continue;
+      if (std::isinf(length))
+        throw ContentError("the planes do not bound a solid on all sides", "add the missing planes");
+      for (const auto& [t, c] : {low, high}) {
+        const Vector3d near = foot + t * line;
+        const auto is_near = [&](const Vector3d& corner) { return (corner - near).norm() <= plane_tolerance * scale; };
+        if (std::none_of(corners.begin(), corners.end(), is_near))
+          corners.push_back(intersection(planes[a], planes[b], planes[c]));
       }
     }
   }
-  if (corners.size() < 4) throw ContentError("no point is on the inner side of all planes", "n·x ≤ d must hold inside");
+  if (corners.size() < 4) throw ContentError("the planes enclose no solid", "n·x ≤ d must hold inside");
   return corners;
 }
 
