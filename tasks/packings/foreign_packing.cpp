@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -34,13 +33,6 @@ struct Match {
   Similarity place;  ///< placement of the solid in the body frame of the type
 };
 
-std::optional<Match> match_by_name(const std::string& name, const Mixture& mixture) {
-  for (const auto& kind : mixture.kinds()) {
-    if (kind.solid->name() == name) return Match{&*kind.solid, {}};
-  }
-  return std::nullopt;
-}
-
 std::optional<Match> match_by_shape(std::span<const Vector3d> vertices, const Mixture& mixture) {
   for (const auto& kind : mixture.kinds()) {
     if (const auto found = similarity(*kind.solid, vertices)) return Match{&*kind.solid, *found};
@@ -63,7 +55,7 @@ class Matching {
   Matching(const Mixture& mixture, const TypeNames& names, std::vector<std::string>* notes)
       : mixture_(mixture), names_(names), notes_(notes) {}
 
-  Match match_of(const ForeignPacking::Type& type) const {
+  Match match_of(const ForeignPacking::Type& type) {
     const auto named = names_.find(type.name);
     if (!type.foreign_shape.empty())
       throw ContentError(fmt::format("type {} has a shape {}", in_quotes(type.name), type.foreign_shape),
@@ -72,13 +64,26 @@ class Matching {
       throw ContentError(fmt::format("type {} has a shape in the file", in_quotes(type.name)),
                          "remove the type from /start/types");
     const auto match = type.vertices.empty()
-                           ? match_by_name(named == names_.end() ? type.name : named->second, mixture_)
+                           ? match_by_name(named == names_.end() ? type.name : named->second, named == names_.end())
                            : match_by_vertices(type);
     if (!match) refuse(type);
     return *match;
   }
 
+  /// Names of types that say nothing, such as the chemical elements that ASE writes.
+  const std::string& guessed() const { return guessed_; }
+
  private:
+  std::optional<Match> match_by_name(const std::string& name, bool may_guess) {
+    const auto& kinds = mixture_.kinds();
+    for (const auto& kind : kinds) {
+      if (kind.solid->name() == name) return Match{&*kind.solid, {}};
+    }
+    if (!may_guess || kinds.size() > 1 || Solid::named(name)) return std::nullopt;
+    guessed_ += (guessed_.empty() ? "" : ", ") + in_quotes(name);
+    return Match{&*kinds.front().solid, {}};
+  }
+
   std::optional<Match> match_by_vertices(const ForeignPacking::Type& type) const {
     if (auto match = match_by_shape(type.vertices, mixture_)) return match;
     const auto corners = hull_corners(type.vertices);
@@ -105,10 +110,11 @@ class Matching {
   const Mixture& mixture_;
   const TypeNames& names_;
   std::vector<std::string>* notes_;
+  std::string guessed_;
 };
 
 /// The solids of the types that particles have.
-std::vector<Match> matches_of(const ForeignPacking& foreign, const Matching& matching) {
+std::vector<Match> matches_of(const ForeignPacking& foreign, Matching& matching) {
   std::vector<char> used(foreign.types.size(), 0);
   for (const auto& body : foreign.bodies) used[static_cast<std::size_t>(body.type)] = 1;
   std::vector<Match> matches;
@@ -117,12 +123,15 @@ std::vector<Match> matches_of(const ForeignPacking& foreign, const Matching& mat
   return matches;
 }
 
-void refuse_other_names(const ForeignPacking& foreign, const TypeNames& names) {
-  std::set<std::string_view> known;
-  for (const auto& type : foreign.types) known.insert(type.name);
+/// Notes what a reader of the file could be wrong about.
+void note_names(const ForeignPacking& foreign, const Mixture& mixture, const TypeNames& names,
+                const std::string& guessed, std::vector<std::string>& notes) {
+  if (!guessed.empty())
+    notes.push_back(fmt::format("types {} are taken for {}, the only solid of the manifest", guessed,
+                                mixture.kinds().front().solid->name()));
   for (const auto& [name, solid] : names) {
-    if (!known.contains(name))
-      throw ContentError(fmt::format("it has no type {}", in_quotes(name)), "correct the name in /start/types");
+    if (std::ranges::find(foreign.types, name, &ForeignPacking::Type::name) == foreign.types.end())
+      notes.push_back(fmt::format("it has no type {}, which /start/types names", in_quotes(name)));
   }
 }
 
@@ -183,8 +192,9 @@ std::size_t index_of_frame(std::size_t frames, int frame) {
 
 Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture, const TypeNames& types,
                    std::vector<std::string>* notes) {
-  refuse_other_names(foreign, types);
-  const auto matches = matches_of(foreign, {mixture, types, notes});
+  Matching matching(mixture, types, notes);
+  const auto matches = matches_of(foreign, matching);
+  if (notes) note_names(foreign, mixture, types, matching.guessed(), *notes);
   std::vector<Particle> particles;
   double volume = 0;
   for (const auto& body : foreign.bodies) {

@@ -122,7 +122,6 @@ ForeignPacking read_gsd_packing(const std::string& bytes, int frame) {
     type.name = names[k];
     if (k < shapes.size()) read_shape(shapes[k], type);
   }
-  if (!file.numbers(which, "particles/position", 3)) throw ContentError("it has no positions");
   const auto positions = of_all(file, which, "position", n, {0, 0, 0});
   const auto orientations = of_all(file, which, "orientation", n, {1, 0, 0, 0});
   const auto types = of_all(file, which, "typeid", n, {0});

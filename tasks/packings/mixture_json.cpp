@@ -94,9 +94,16 @@ FieldEntry field_of_file(std::string& path) {
 std::vector<double> read_size_file(const JsonPlace& place) {
   const auto path = (std::filesystem::path(place.file()).parent_path() / place.text(allowed_size_file)).string();
   auto text = read_named_file(place, path, allowed_size_file);
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
+  std::replace(text.begin(), text.end(), ';', ' ');
   try {
+    TextLines raw(text, '#');
+    for (auto word = raw.next_word(); !word.empty(); word = raw.next_word()) {
+      const auto comma = word.find(',');
+      if (comma < word.size() - 1 && word.find('.') == word.npos && word.find(',', comma + 1) >= word.size() - 1)
+        raw.refuse(fmt::format("\"{}\" may be one size or two", word),
+                   "write a decimal point, or a blank after the comma");
+    }
+    std::replace(text.begin(), text.end(), ',', ' ');
     TextLines lines(text, '#');
     std::vector<double> sizes;
     for (auto word = lines.next_word(); !word.empty(); word = lines.next_word()) {

@@ -110,9 +110,4 @@ inline Triangles jittered(Triangles list) {
   return list;
 }
 
-inline Sample without_last_face(Sample solid) {
-  solid.faces.pop_back();
-  return solid;
-}
-
 }  // namespace isojam::test

@@ -36,7 +36,7 @@ Outcome outcome(const std::string& bytes, const RepairOptions& options = {}) {
 }
 
 using Features = std::array<std::size_t, 3>;
-constexpr Features of_cube{6, 12, 8}, of_tetrahedron{4, 6, 4};
+constexpr Features of_tetrahedron{4, 6, 4};
 
 TEST(SolidFileFormats, PartsThatAreNotUsedAreNoted) {
   auto unused = cube();
@@ -68,12 +68,6 @@ TEST(SolidFileRepairs, WeldCornersThatNearlyCoincide) {
     EXPECT_EQ(welded.intake.report.welded + welded.intake.report.dropped, 8);
     EXPECT_NE(outcome(bytes, {.merge = merge / 100}).text, "") << "a smaller value does not weld them";
   }
-}
-
-TEST(SolidFileRepairs, TakeTheHullOnRequestOnly) {
-  const auto open = off(without_last_face(cube()));
-  EXPECT_NE(outcome(open).text, "");
-  EXPECT_EQ(outcome(open, {.hull = true}).features, of_cube);
 }
 
 TEST(SolidFileLimits, AreCheckedBeforeTheWork) {
