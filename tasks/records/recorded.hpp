@@ -23,6 +23,9 @@ struct RecordedReplicate {
   RecordSummary summary;
   /// index of the nearest state in the file; only if `record` has no other state
   std::optional<std::size_t> nearest = std::nullopt;
+
+  /// Pairs with a smaller gap count as contacts; 0 unless the packing was measured as given.
+  double gap() const { return document.spec.value(Json::json_pointer("/start/gap"), 0.0); }
 };
 
 /// Reads the record with this name. Throws FileError if it cannot be read at the moment. Throws InputError if it is

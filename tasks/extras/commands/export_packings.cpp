@@ -37,7 +37,7 @@ void export_replicate(const ExportArguments& arguments, const Requests& requests
   if (!has_packing(arguments, held, console)) return;
   std::vector<ExportFrame> frames;
   for (auto& state : stored_states(arguments.directory, held, arguments.path))
-    frames.push_back(make_frame(std::move(state.packing), state.delta_phi, arguments.contacts));
+    frames.push_back(make_frame(std::move(state.packing), state.delta_phi, arguments.contacts, state.gap));
   warn_of_undecided(name, frames, console);
   auto files = exported_files(frames, arguments.what, arguments.path, output);
   if (is_stream(output)) std::erase_if(files, [&](const ExportedFile& file) { return file.path != output; });

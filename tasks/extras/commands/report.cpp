@@ -71,7 +71,7 @@ ExitCode report(const ReportArguments& arguments, Console& console) {
     const auto held = read_record(directory, fs::path(name).filename().string(), Abridgement{States::nearest});
     const auto packing = read_nearest_packing(directory, held);
     if (!packing) continue;
-    auto view = packing_view(*packing, chosen.with_modes ? options.modes : 0);
+    auto view = packing_view(*packing, chosen.with_modes ? options.modes : 0, held.gap());
     view["solid"] = to_string(held.summary.solid);
     view["name"] = name;
     views.push_back(page_text(view));

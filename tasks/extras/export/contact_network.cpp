@@ -26,11 +26,6 @@ std::vector<Json> row_of(const std::string& replicate, const StoredState& state,
 
 }  // namespace
 
-std::vector<NetworkContact> contact_network(const Packing& packing) {
-  PackingEnergy energy;
-  return contact_network(packing, classified_contacts(packing, energy));
-}
-
 std::vector<NetworkContact> contact_network(const Packing& packing, const ClassifiedContacts& classified) {
   const auto forces = contact_forces(packing, classified.contacts);
   const bool decided = !undecided(classified.analysis);

@@ -20,16 +20,14 @@ struct NetworkContact {
   double gap = 0;                             ///< gap of a pair that does not overlap; otherwise 0
 };
 
-/// All contacts of a packing, sorted by (a, b, shift). They are classified as in the measure `contacts`.
-std::vector<NetworkContact> contact_network(const Packing& packing);
+/// All contacts of a packing, sorted by (a, b, shift), with the classes of the measure `contacts`.
 std::vector<NetworkContact> contact_network(const Packing& packing, const ClassifiedContacts& classified);
 
 /// Columns of a table of contacts: replicate, state, Δφ, a, b, image, V, |S|, force on a, point of application, normal
 /// (points out of a), torques on a and b about their centres, class, kind, θ_ef and θ_ff (radians), depth, solids of a
 /// and b, the exponent x, which is empty unless the record has the measure `exponents` of the state, and the gap.
-/// `image` has
-/// three integers n_i: the centre of the touching image of b is x_b + Σ n_i·(lattice vector i). The class depends on
-/// the fitted cut-offs, and the kind on the shape of the intersection, see ContactKind.
+/// `image` has three integers n_i: the centre of the touching image of b is x_b + Σ n_i·(lattice vector i). The class
+/// depends on the fitted cut-offs, and the kind on the shape of the intersection, see ContactKind.
 const Columns& contact_columns();
 /// The columns with texts.
 const Columns& contact_texts();

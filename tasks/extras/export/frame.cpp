@@ -156,10 +156,10 @@ FaceContact strength_of(ContactClass contact_class) {
   return FaceContact::lower_order;
 }
 
-ExportFrame make_frame(Packing packing, std::optional<double> delta_phi, bool with_network) {
+ExportFrame make_frame(Packing packing, std::optional<double> delta_phi, bool with_network, double gap) {
   const auto n = packing.poses.size();
   PackingEnergy energy;
-  const auto classified = classified_contacts(packing, energy);
+  const auto classified = classified_contacts(packing, energy, gap);
   const bool decided = !undecided(classified.analysis);
 
   ExportFrame frame{std::move(packing), delta_phi, {}, {}, {}, {}};

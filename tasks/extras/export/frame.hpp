@@ -47,7 +47,7 @@ struct ExportFrame {
 /// Makes a frame. Contacts, classes and clusters are computed in the same way as in records. The contact network takes
 /// about 50 µs per contact. Throws std::invalid_argument if the cell is so small that a particle could touch two images
 /// of another one.
-ExportFrame make_frame(Packing packing, std::optional<double> delta_phi, bool with_network = false);
+ExportFrame make_frame(Packing packing, std::optional<double> delta_phi, bool with_network = false, double gap = 0);
 
 /// Throws std::invalid_argument if there is no frame, or if the frames have different particles.
 void check_frames(std::span<const ExportFrame> frames);

@@ -40,7 +40,7 @@ std::vector<StoredState> states_of_path(const fs::path& directory, const Recorde
   std::vector<StoredState> list;
   for (std::size_t k = 0; k < count; ++k) {
     const auto state = states.at(k);
-    list.push_back({k, read<PathState>(state).delta_phi.value, read_packing(state), exponents_of(held, k)});
+    list.push_back({k, read<PathState>(state).delta_phi.value, read_packing(state), exponents_of(held, k), held.gap()});
     const auto &first = list.front().packing, &last = list.back().packing;
     if (!(last.solids == first.solids) || last.size() != first.size())
       state.refuse("the state has other particles than the first one");
@@ -56,9 +56,8 @@ std::vector<StoredState> stored_states(const fs::path& directory, const Recorded
   const JsonPlace packing(json, file_of(directory, "packings", held.name));
   std::vector<StoredState> one;
   const auto nearest = static_cast<std::size_t>(*held.document.nearest.value);
-  one.push_back(
-      {nearest, held.document.states[nearest].delta_phi.value, read_packing(packing), exponents_of(held, nearest)});
-  one.front().gap = held.document.spec.value(Json::json_pointer("/start/gap"), 0.0);
+  one.push_back({nearest, held.document.states[nearest].delta_phi.value, read_packing(packing),
+                 exponents_of(held, nearest), held.gap()});
   return one;
 }
 

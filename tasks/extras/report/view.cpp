@@ -187,9 +187,9 @@ void put_solids(Json& json, const Composition& solids, int particles) {
 
 }  // namespace
 
-Json packing_view(const Packing& packing, int modes) {
+Json packing_view(const Packing& packing, int modes, double gap) {
   PackingEnergy energy;
-  const auto classified = classified_contacts(packing, energy);
+  const auto classified = classified_contacts(packing, energy, gap);
   Json json;
   json["solid"] = packing.solids.unit(0).name();  // if this is a mixture, its name is stored elsewhere
   if (!packing.solids.is_uniform()) put_solids(json, packing.solids, packing.size());
@@ -198,7 +198,7 @@ Json packing_view(const Packing& packing, int modes) {
   json["cell"] = vectors_of(packing.cell);
   put_poses(json, packing);
   put_contacts(json, classified.contacts, packing.size());
-  put_forces(json, classified.contacts, packing);
+  put_forces(json, energy.contacts(packing), packing);
   put_clusters(json, packing, classified);
   json["modes"] = mode_list(packing, energy, modes);
   return json;

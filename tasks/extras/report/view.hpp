@@ -51,7 +51,7 @@ std::vector<ChosenView> choose_views(std::span<const Viewable> all, const ViewOp
 ///   with the largest magnitude is ±1. If the eigenvalue is not positive, ω is null.
 ///
 /// Missing values are null.
-Json packing_view(const Packing& packing, int modes);
+Json packing_view(const Packing& packing, int modes, double gap = 0);
 
 /// {"members", "positions", "winding_rank"} of a cluster. Positions are followed along the contacts, without jumps at
 /// the faces of the cell, and shifted so that their mean is the centre of the cell.

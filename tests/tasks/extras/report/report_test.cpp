@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/analysis/alignment/empirical_cdf.hpp"
+#include "engine/analysis/gaps.hpp"
 #include "engine/packing/energy.hpp"
 #include "engine/vibration/spectrum.hpp"
 #include "tasks/extras/page/page.hpp"
@@ -249,12 +250,15 @@ TEST(ReportViews, OneOfEveryPointThenMoreIfThereIsRoom) {
 
 TEST(ReportViews, ShowThePackingItself) {
   const auto packing = dense_packing();
-  const auto view = packing_view(packing, 3);
+  const auto view = packing_view(packing, 3), with_gaps = packing_view(packing, 0, .1);
   PackingEnergy energy;
-  const auto contacts = energy.contacts(packing);
-  std::size_t sum = 0;
+  std::size_t sum = 0, more = 0;
   for (const auto& number : view["contacts"]) sum += number.get<std::size_t>();
-  EXPECT_EQ(sum, 2 * contacts.size());
+  for (const auto& number : with_gaps["contacts"]) more += number.get<std::size_t>();
+  EXPECT_EQ(sum, 2 * energy.contacts(packing).size());
+  EXPECT_EQ(more - sum, 2 * near_gaps(packing, .1).size());
+  EXPECT_GT(more, sum);
+  EXPECT_EQ(with_gaps["forces"], view["forces"]) << "pairs with a gap have no force";
   for (std::size_t i = 0; i < packing.poses.size(); ++i) {
     for (int c = 0; c < 3; ++c) {
       const double shown = view["positions"][i][static_cast<std::size_t>(c)].get<double>();
