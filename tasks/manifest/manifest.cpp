@@ -127,9 +127,18 @@ void check_together(const JsonPlace& root, const Manifest& manifest) {
   check_particles(root, manifest, sets);
 }
 
+/// The first manifests called the stages consolidation and expansion.
+void rename_stage(Json& document) {
+  const Json::json_pointer stage("/start/stage");
+  if (!document.contains(stage)) return;
+  if (document[stage] == "consolidation") document[stage] = to_string(JamStage::compression);
+  if (document[stage] == "expansion") document[stage] = to_string(JamStage::decompression);
+}
+
 /// Reads the files of /start if `with_start` is true, or if the manifest does not state their digests.
 Manifest parse(std::string_view text, const std::string& file, bool with_start) {
-  const auto document = parse_json(text, file);
+  auto document = parse_json(text, file);
+  rename_stage(document);
   Problems problems;
   const JsonPlace root(document, file, "", &problems);
   Manifest manifest;

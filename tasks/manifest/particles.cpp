@@ -46,6 +46,8 @@ void check_kinds(const JsonPlace& root, const Manifest& manifest) {
 
 void check_particles(const JsonPlace& root, const Manifest& manifest, const std::vector<OptionSet>& sets) {
   check_kinds(root, manifest);
+  // The cell of a packing as given does not shrink. load_start() checks it.
+  if (manifest.start && manifest.start->stage == JamStage::as_given) return;
   // The largest max_density and initial_density of a solid.
   const auto densities = [&](const Mixture& mixture) {
     std::pair<double, double> largest{0, 0};
@@ -75,7 +77,9 @@ void check_particles(const JsonPlace& root, const Manifest& manifest, const std:
               fmt::format("{} is too small for {} at max_density {}{}", particles, to_string(neediest), largest,
                           grown_by > 0 ? fmt::format(" with cohesion of range {}", 2 * grown_by) : ""),
               fmt::format("use at least {} particles{}", *most,
-                          allowed > initial ? fmt::format(" or set max_density to {} or less", allowed) : ""));
+                          allowed > std::max(initial, compressed_density)
+                              ? fmt::format(" or set max_density to {} or less", allowed)
+                              : ""));
     });
   }
 }

@@ -200,12 +200,12 @@ void describe(Fields& field, Start& start) {
   field("stage", start.stage,
         "First stage of the protocol. `compression`: The packing is first compressed to the target energy. "
         "`decompression`: The packing is treated as jammed and only decompressed. `as_given`: The packing is measured "
-        "as it "
-        "is, and nothing is relaxed.")
+        "as it is, and nothing is relaxed.")
       .optional();
   field("gap", start.gap,
         "Only with the stage `as_given`: pairs of particles with a smaller gap count as contacts, in addition to those "
-        "that overlap. The gap is the largest distance of two parallel planes that separate the particles.")
+        "that overlap. The gap is the largest distance of two separating planes that are parallel to a face of one "
+        "particle, or to an edge of each.")
       .unit("V_p^(1/3)")
       .range({0, 1, true})
       .finite();

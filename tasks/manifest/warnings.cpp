@@ -11,6 +11,7 @@
 
 #include "engine/analysis/orientation_order.hpp"
 #include "engine/arithmetic/elementary.hpp"
+#include "tasks/manifest/particles.hpp"
 
 namespace isojam {
 namespace {
@@ -37,8 +38,6 @@ constexpr double noticeable_change = 1e-5;
 /// Smallest height of a free cell, divided by the side of a cube of the same volume. The least of 8 packings of 64
 /// octahedra was 0.88, those of 100 and 200 tetrahedra 0.86 and 0.89; cubes, which form layers, reached 0.70.
 constexpr double least_height = 0.85, least_height_of_cubes = 0.7;
-/// Density near which packings reach the default target energy.
-constexpr double compressed_density = 0.82;
 
 /// At Δφ = 0.008, methods other than Newton's and the multipliers still have residuals of 3e-4 and more after so many
 /// evaluations. At Δφ = 0.03, most reach 1e-6.

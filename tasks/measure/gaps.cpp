@@ -24,9 +24,8 @@ void describe(Fields& field, Gaps& gaps) {
   constexpr QuantityGroup group{"gaps and forces",
                                 "Number of pairs with a gap below Δφ·V_p^(1/3), and share of weak contact forces."};
   field("within_distance", gaps.within_distance,
-        "Number of pairs, per particle, that do not touch and whose gap is below Δφ·V_p^(1/3). The gap is the largest "
-        "distance between two parallel planes that separate the particles. Each pair counts for both of its particles. "
-        "The value is null if Δφ is not between 0 and 0.1.")
+        "Number of pairs, per particle, that do not touch and whose gap is below Δφ·V_p^(1/3). Each pair counts for "
+        "both of its particles. The value is null if Δφ is not between 0 and 0.1.")
       .unit("per particle")
       .column({"gaps_within_distance", group, "Z_{h<\\Delta\\phi}"});
   field("log10_gap", gaps.log10_gap, "Edges of the bins of the gaps: log10 of the gap in units of V_p^(1/3).").detail();
@@ -65,7 +64,8 @@ struct State {
 void describe(Fields& field, State& state) {
   field("gaps", state.gaps,
         "Histograms of the gaps of pairs that nearly touch, and of the contact forces. The gap of a pair is the "
-        "largest distance between two parallel planes that separate its particles. The bins are logarithmic.");
+        "largest distance of two separating planes that are parallel to a face of one particle, or to an edge of each. "
+        "The bins are logarithmic.");
 }
 
 /// Ranges. Gaps are from 1e-8 to 0.1 V_p^(1/3), forces from 1e-6 to 10^1.6 in units of their mean.
