@@ -24,7 +24,7 @@ COUNTED = re.compile(r"(?!schemas/|.*/data/).*\.(cpp|hpp|h|py|js|css|sh|md|cmake
 MAX_LINES = 400
 WIDE_COMMENT = re.compile(r'[^"]*//(?!.*NOLINT)')
 FOLDERS = "names arithmetic random parallel geometry packing solve analysis vibration shear rigidity".split()
-TOP = set("engine tasks schemas tests examples docs CMakeLists.txt CMakePresets.json Containerfile Makefile README.md "
+TOP = set("engine tasks schemas tests examples docs CMakeLists.txt Containerfile Makefile README.md "
           "LICENSE CITATION.cff CHANGELOG.md CONTRIBUTING.md .ci .git .gitignore .clang-format .clang-tidy".split())
 NOT_IN_HEADERS = re.compile(r'[<"](tbb|oneapi|CLI)/|<execution>|<metis\.h>')
 LIBRARIES = re.compile(r"<(Eigen|Spectra|boost/math|tbb|oneapi)/|<(metis|immintrin|arm_neon)\.h>|"
