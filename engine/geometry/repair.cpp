@@ -20,6 +20,10 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Least length of a move that may be allowed, relative to the diameter. Faces that are nearly in one plane are joined
+/// within rounding errors, but the corners that they lose may be farther from the edges that remain.
+constexpr double rounded_corner = 1e-9;
+
 /// Largest distance of two of the points.
 double diameter(const HullPoints& points, const std::vector<int>& use) {
   std::array<std::vector<double>, 3> all;
@@ -79,28 +83,52 @@ std::vector<int> corners_of(const Loops& faces) {
   return corners;
 }
 
+/// What all repairs of one set of points have in common. Lengths are in units of points.unit().
+struct Points {
+  explicit Points(std::span<const Vector3d> all)
+      : given(all),
+        points(widened(all)),
+        tolerance(static_cast<double>(rounding_tolerance(widened(all)) / points.unit())) {}
+
+  std::vector<int> every() const {
+    std::vector<int> indices(given.size());
+    std::iota(indices.begin(), indices.end(), 0);
+    return indices;
+  }
+
+  /// Finds the hull, once.
+  void find_hull() {
+    if (!corners.empty()) return;
+    triangles = hull_triangles(points, every());
+    whole = six_volumes(points, triangles);
+    corners = corners_of(triangles);
+    if (corners.size() <= std::size_t{most_hull_corners}) diameter = isojam::diameter(points, corners);
+  }
+
+  std::span<const Vector3d> given;
+  HullPoints points;
+  double tolerance, diameter = 0;
+  std::vector<HullTriangle> triangles;
+  Quad whole = 0;  ///< six times the volume of the hull
+  std::vector<int> corners;
+};
+
 /// The repair of one set of points. All indices are those of the given points; lengths are in units of points.unit().
 class Repair {
  public:
-  Repair(std::span<const Vector3d> given, const RepairOptions& options)
-      : given_(given),
-        options_(options),
-        points_(widened(given)),
-        tolerance_(static_cast<double>(rounding_tolerance(widened(given)) / points_.unit())),
-        use_(given.size()) {
-    std::iota(use_.begin(), use_.end(), 0);
-  }
+  Repair(Points& all, const RepairOptions& options)
+      : all_(all), options_(options), points_(all.points), tolerance_(all.tolerance), use_(all.every()) {}
 
   RepairedSolid run() {
     const bool welds = options_.merge > 0 || options_.hull;
     if (!welds) refuse_equal_points(points_, tolerance_);
-    std::vector<HullTriangle> triangles = hull_triangles(points_, use_);
-    const Quad whole = six_volumes(points_, triangles);
-    hull_corners_ = corners_of(triangles);
+    all_.find_hull();
+    std::vector<HullTriangle> triangles = all_.triangles;
+    hull_corners_ = all_.corners;
     if (hull_corners_.size() > std::size_t{most_hull_corners})
       throw NoSolid("the convex hull has " + std::to_string(hull_corners_.size()) + " corners, but at most " +
                     std::to_string(most_hull_corners) + " can be repaired");
-    diameter_ = diameter(points_, hull_corners_);
+    diameter_ = all_.diameter;
     merge_ = options_.merge * diameter_;
     if (options_.hull) {
       report_.dropped = static_cast<int>(use_.size() - hull_corners_.size());
@@ -123,8 +151,8 @@ class Repair {
     const HullPoints result(widened(vertices_));
     const Quad unit = points_.unit(), scale = result.unit() / unit;
     const Quad left = scale * scale * scale * six_volumes(result, hull_faces(widened(vertices_)));
-    report_.hull_volume = static_cast<double>(unit * unit * unit * whole / 6);
-    report_.volume_change = static_cast<double>(left / whole - 1);
+    report_.hull_volume = static_cast<double>(unit * unit * unit * all_.whole / 6);
+    report_.volume_change = static_cast<double>(left / all_.whole - 1);
     if (std::abs(report_.volume_change) > options_.max_volume_change)
       throw NoSolid("the repairs change the volume by " + percent(report_.volume_change) + " %, but at most " +
                         percent(options_.max_volume_change) + " % are allowed",
@@ -152,7 +180,7 @@ class Repair {
     try {
       return hull_triangles(points_, use_);
     } catch (const NoSolid&) {
-      throw NoSolid("welding leaves only " + std::to_string(use_.size()) + " of " + std::to_string(given_.size()) +
+      throw NoSolid("welding leaves only " + std::to_string(use_.size()) + " of " + std::to_string(all_.given.size()) +
                         " points, which span no volume",
                     NoSolid::Cause::too_coarse);
     }
@@ -178,9 +206,8 @@ class Repair {
 
   /// Largest distance of a point from the surface of the hull with these faces, and the index of this point.
   std::pair<double, int> largest_depth(const std::vector<FaceLoop>& faces) const {
-    std::vector<int> every(given_.size()), among;
-    std::iota(every.begin(), every.end(), 0);
-    std::ranges::set_difference(options_.hull ? every : use_, corners_of(faces), std::back_inserter(among));
+    std::vector<int> among;
+    std::ranges::set_difference(options_.hull ? all_.every() : use_, corners_of(faces), std::back_inserter(among));
     if (among.empty()) return {0, use_.front()};
     std::vector<Quad3> all;
     for (int k = 0; k < points_.size(); ++k) all.push_back(points_[k]);
@@ -220,14 +247,14 @@ class Repair {
     } else {
       for (const int k : use_) {
         corners.push_back(points_.near(k));
-        vertices_.push_back(given_[static_cast<std::size_t>(k)]);
+        vertices_.push_back(all_.given[static_cast<std::size_t>(k)]);
       }
     }
     for (const int k : hull_corners_) expect_near(k, distance_from(corners, faces, points_.near(k)));
   }
 
   void expect_near(int point, double distance) {
-    if (distance > (1 + largest_planar_move) * merge_ + 2 * tolerance_)
+    if (distance > (1 + largest_planar_move) * std::max(merge_, rounded_corner * diameter_))
       throw NoSolid("the repairs would omit vertex " + std::to_string(point) + ", which is " +
                         percent(distance / diameter_) + " % of the diameter away from the result",
                     NoSolid::Cause::too_coarse, point);
@@ -263,9 +290,9 @@ class Repair {
     return scaled;
   }
 
-  std::span<const Vector3d> given_;
+  Points& all_;
   RepairOptions options_;
-  HullPoints points_;
+  const HullPoints& points_;
   double diameter_ = 0, tolerance_, merge_ = 0;
   std::vector<int> use_;           ///< points that are left, ascending
   std::vector<int> hull_corners_;  ///< corners that must be near the result
@@ -276,16 +303,19 @@ class Repair {
 }  // namespace
 
 RepairedSolid repaired(std::span<const Vector3d> points, const RepairOptions& options) {
-  return Repair(points, options).run();
+  Points all(points);
+  return Repair(all, options).run();
 }
 
 std::optional<RepairOptions> tried_repair(std::span<const Vector3d> points, const RepairOptions& options,
                                           NoSolid::Cause cause) {
   auto refused = NoSolid::Cause::other;
+  std::optional<Points> all;
   const auto change = [&](RepairOptions changed) -> std::optional<double> {
     changed.measures_depth = false;
     try {
-      return std::abs(repaired(points, changed).report.volume_change);
+      if (!all) all.emplace(points);
+      return std::abs(Repair(*all, changed).run().report.volume_change);
     } catch (const NoSolid& error) {
       refused = error.cause();
       return std::nullopt;
@@ -306,32 +336,39 @@ std::optional<RepairOptions> tried_repair(std::span<const Vector3d> points, cons
       changed.merge = factors[k] * options.merge;
       if ((points.size() <= many || k % 3 == 2) && change(changed)) return changed;
     }
-  } else if (cause != NoSolid::Cause::too_large) {
-    return std::nullopt;
   }
   changed = options;
   changed.merge = largest_merge;
   const bool is_too_large = cause == NoSolid::Cause::too_large;
-  if (is_too_large && options.merge < largest_merge && (change(changed) || refused != cause)) {
+  if (is_too_large ? options.merge < largest_merge && (change(changed) || refused != cause) : options.merge == 0) {
     // Smaller lengths leave faces that are almost in one plane. So many points are hardly ever welded below 1e-4.
-    for (const double merge : {1e-6, 1e-5, 1e-4, 1e-3, largest_merge}) {
+    for (const double merge : {is_too_large ? 1e-6 : 1e-9, 1e-5, 1e-4, 1e-3, largest_merge}) {
       changed.merge = merge;
       if (merge > options.merge && (points.size() <= many || merge >= 1e-4) && change(changed)) return changed;
     }
   }
-  for (const int corners : {ConvexSolid::max_vertices, 112, 96, 80, ConvexSolid::max_edges / 3 + 2, 0}) {
-    changed = options;
-    changed.corners = corners == 0 ? options.corners : corners;
-    changed.max_volume_change = 1;
-    if ((corners > 0) != is_too_large || (corners > 0 && options.corners > 0)) continue;
-    if (points.size() > many && corners > ConvexSolid::max_edges / 3 + 2) continue;
-    const auto volume = change(changed);
-    if (!volume) continue;
-    changed.max_volume_change = options.max_volume_change;
-    if (*volume > options.max_volume_change) changed.max_volume_change = std::ceil(100 * *volume) / 100;
-    return changed;
+  // Removing corners from what was welded can fail where it succeeds with all corners.
+  for (const bool welds : {true, false}) {
+    for (const int corners : {ConvexSolid::max_vertices, 112, 96, 80, ConvexSolid::max_edges / 3 + 2, 0}) {
+      if (cause == NoSolid::Cause::other || (!welds && (options.merge == 0 || !is_too_large))) break;
+      if ((corners > 0) != is_too_large || (corners > 0 && options.corners > 0)) continue;
+      if (points.size() > many && corners > ConvexSolid::max_edges / 3 + 2) continue;
+      changed = options;
+      changed.merge = welds ? options.merge : 0;
+      changed.corners = corners == 0 ? options.corners : corners;
+      changed.max_volume_change = 1;
+      const auto volume = change(changed);
+      if (!volume) continue;
+      changed.max_volume_change = options.max_volume_change;
+      if (*volume > options.max_volume_change) changed.max_volume_change = std::ceil(100 * *volume) / 100;
+      return changed;
+    }
   }
-  return std::nullopt;
+  if (options.merge == 0 || is_too_large) return std::nullopt;
+  changed = options;
+  changed.merge = 0;
+  if (change(changed)) return changed;
+  return tried_repair(points, changed, refused);
 }
 
 }  // namespace isojam

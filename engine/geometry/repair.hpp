@@ -24,7 +24,7 @@ struct RepairOptions {
   /// Length within which points are welded and faces are joined, relative to the diameter of the points. Each point is
   /// welded to the first remaining point that is at most this far away. Adjacent faces are joined if all of their
   /// corners are within this distance of one plane. No corner of the hull is then farther from the result than five
-  /// times this length.
+  /// times this length, or 5e-9.
   double merge = 0;
   /// Omits points that are not corners of the convex hull. If false, such a point is an error, unless it is within
   /// `merge` of a face.
