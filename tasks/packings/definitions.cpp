@@ -147,14 +147,17 @@ std::vector<Eigen::Vector4d> read_planes(const JsonPlace& place) {
   return planes;
 }
 
+/// More than three planes whose numbers are rounded meet in several corners, which are so near to each other.
+constexpr double nearest_corners = 1e-9;
+
 SolidDefinition read_half_spaces(const JsonPlace& place, const std::string& name, RepairOptions options) {
   std::vector<Vector3d> corners;
   try {
     corners = corners_between(read_planes(place));
     options.hull = true;
-    const auto result = repaired(corners, options);
-    // Corners in which several planes meet were computed several times: without a key, nothing else was repaired.
     const bool repairs = options.merge > 0 || options.corners > 0;
+    options.merge = std::max(options.merge, nearest_corners);
+    const auto result = repaired(corners, options);
     return {made_solid(place, name, result.vertices), repairs ? result.report : RepairReport{}};
   } catch (const ContentError& error) {
     place.refuse_with_remedy(error.what(), error.remedy());

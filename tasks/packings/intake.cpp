@@ -90,10 +90,11 @@ std::string remedy_for(const NoSolid& error, std::span<const Eigen::Vector3d> po
     std::string text;
     const auto add = [&text](const std::string& change) { text += (text.empty() ? "set " : " and ") + change; };
     if (tried->hull && !options.hull) add("\"hull\" to true");
-    if (tried->merge != options.merge) add(fmt::format("\"merge\" to {:g}", tried->merge));
+    if (tried->merge > 0 && tried->merge != options.merge) add(fmt::format("\"merge\" to {:g}", tried->merge));
     if (tried->corners != options.corners) add(fmt::format("\"corners\" to {}", tried->corners));
     if (tried->max_volume_change != options.max_volume_change)
       add(fmt::format("\"max_volume_change\" to {:g}", tried->max_volume_change));
+    if (tried->merge == 0 && options.merge > 0) text += text.empty() ? "remove \"merge\"" : ", and remove \"merge\"";
     return text;
   }
   if (error.cause() == NoSolid::Cause::not_planar) return "write the vertices with more digits";
