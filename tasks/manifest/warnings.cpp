@@ -171,7 +171,7 @@ void look_at_start(const StartFile& file, Warnings& warnings) {
   constexpr double deep = 0.03, shallower = 0.7;
   const auto overlap =
       fmt::format("{}: the deepest overlap is {:.2g} of the volume of a particle", file.path, file.deepest_overlap);
-  if (file.deepest_reordered && *file.deepest_reordered < shallower * file.deepest_overlap)
+  if (file.deepest_overlap > deep && file.deepest_reordered.value_or(1) < shallower * file.deepest_overlap)
     warnings.add_at("/start/packing",
                     fmt::format("{}, but {:.2g} if the quaternions have the order w x y z; if they have, write them in "
                                 "the order x y z w",

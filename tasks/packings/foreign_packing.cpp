@@ -55,7 +55,7 @@ class Matching {
   Matching(const Mixture& mixture, const TypeNames& names, std::vector<std::string>* notes)
       : mixture_(mixture), names_(names), notes_(notes) {}
 
-  Match match_of(const ForeignPacking::Type& type) {
+  Match match_of(const ForeignPacking::Type& type) const {
     const auto named = names_.find(type.name);
     if (!type.foreign_shape.empty())
       throw ContentError(fmt::format("type {} has a shape {}", in_quotes(type.name), type.foreign_shape),
@@ -63,24 +63,24 @@ class Matching {
     if (!type.vertices.empty() && named != names_.end())
       throw ContentError(fmt::format("type {} has a shape in the file", in_quotes(type.name)),
                          "remove the type from /start/types");
-    const auto match = type.vertices.empty()
-                           ? match_by_name(named == names_.end() ? type.name : named->second, named == names_.end())
-                           : match_by_vertices(type);
-    if (!match) refuse(type);
+    const auto match = !type.vertices.empty()  ? match_by_vertices(type)
+                       : named == names_.end() ? match_by_name(type.name, type.is_element)
+                                               : match_by_name(named->second, false);
+    if (!match) refuse(type, named == names_.end() ? "" : ", " + named->second + " by /start/types,");
     return *match;
   }
 
-  /// Names of types that say nothing, such as the chemical elements that ASE writes.
-  const std::string& guessed() const { return guessed_; }
-
  private:
-  std::optional<Match> match_by_name(const std::string& name, bool may_guess) {
+  std::optional<Match> match_by_name(const std::string& name, bool is_element) const {
     const auto& kinds = mixture_.kinds();
     for (const auto& kind : kinds) {
       if (kind.solid->name() == name) return Match{&*kind.solid, {}};
     }
-    if (!may_guess || kinds.size() > 1 || Solid::named(name)) return std::nullopt;
-    guessed_ += (guessed_.empty() ? "" : ", ") + in_quotes(name);
+    const auto is_other = [&](const auto& kind) { return kind.solid->name() != kinds.front().solid->name(); };
+    if (!is_element || std::ranges::any_of(kinds, is_other)) return std::nullopt;
+    if (notes_)
+      notes_->push_back(fmt::format("the element {} is taken for {}, the only solid of the manifest", in_quotes(name),
+                                    kinds.front().solid->name()));
     return Match{&*kinds.front().solid, {}};
   }
 
@@ -99,22 +99,22 @@ class Matching {
     return match;
   }
 
-  [[noreturn]] void refuse(const ForeignPacking::Type& type) const {
-    throw ContentError(fmt::format("particles of type {} do not match {}", in_quotes(type.name), to_string(mixture_)),
-                       type.vertices.empty()
-                           ? fmt::format("name the solid of this type in /start/types, for example {{\"{}\": \"{}\"}}",
-                                         type.name, mixture_.kinds().front().solid->name())
-                           : "use the solid of the file in /sweep/solid");
+  [[noreturn]] void refuse(const ForeignPacking::Type& type, const std::string& named) const {
+    throw ContentError(
+        fmt::format("particles of type {}{} do not match {}", in_quotes(type.name), named, to_string(mixture_)),
+        type.vertices.empty()
+            ? fmt::format("name the solid of this type in /start/types, for example {{\"{}\": \"{}\"}}", type.name,
+                          mixture_.kinds().front().solid->name())
+            : "use the solid of the file in /sweep/solid");
   }
 
   const Mixture& mixture_;
   const TypeNames& names_;
   std::vector<std::string>* notes_;
-  std::string guessed_;
 };
 
 /// The solids of the types that particles have.
-std::vector<Match> matches_of(const ForeignPacking& foreign, Matching& matching) {
+std::vector<Match> matches_of(const ForeignPacking& foreign, const Matching& matching) {
   std::vector<char> used(foreign.types.size(), 0);
   for (const auto& body : foreign.bodies) used[static_cast<std::size_t>(body.type)] = 1;
   std::vector<Match> matches;
@@ -123,12 +123,7 @@ std::vector<Match> matches_of(const ForeignPacking& foreign, Matching& matching)
   return matches;
 }
 
-/// Notes what a reader of the file could be wrong about.
-void note_names(const ForeignPacking& foreign, const Mixture& mixture, const TypeNames& names,
-                const std::string& guessed, std::vector<std::string>& notes) {
-  if (!guessed.empty())
-    notes.push_back(fmt::format("types {} are taken for {}, the only solid of the manifest", guessed,
-                                mixture.kinds().front().solid->name()));
+void note_other_names(const ForeignPacking& foreign, const TypeNames& names, std::vector<std::string>& notes) {
   for (const auto& [name, solid] : names) {
     if (std::ranges::find(foreign.types, name, &ForeignPacking::Type::name) == foreign.types.end())
       notes.push_back(fmt::format("it has no type {}, which /start/types names", in_quotes(name)));
@@ -192,9 +187,8 @@ std::size_t index_of_frame(std::size_t frames, int frame) {
 
 Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture, const TypeNames& types,
                    std::vector<std::string>* notes) {
-  Matching matching(mixture, types, notes);
-  const auto matches = matches_of(foreign, matching);
-  if (notes) note_names(foreign, mixture, types, matching.guessed(), *notes);
+  if (notes) note_other_names(foreign, types, *notes);
+  const auto matches = matches_of(foreign, {mixture, types, notes});
   std::vector<Particle> particles;
   double volume = 0;
   for (const auto& body : foreign.bodies) {

@@ -19,6 +19,7 @@ struct ForeignPacking {
     std::string name;
     std::vector<Eigen::Vector3d> vertices;  ///< vertices in the body frame; empty if the file contains no shape
     std::string foreign_shape;              ///< text about a shape that is not a convex polyhedron; otherwise empty
+    bool is_element = false;                ///< the name is a chemical symbol, which does not say what has the type
   };
   struct Body {
     int type = 0;
@@ -54,8 +55,8 @@ using TypeNames = std::map<std::string, std::string, std::less<>>;
 /// Converts a packing of another program to a packing with the particles of a mixture. A type is identified with the
 /// solid that has the same shape, up to rotation and shift. Points of a shape that are not corners of its convex hull
 /// are omitted, and `notes` states this. If the file contains no shape of the type, the solid has the name that `types`
-/// gives, or the name of the type. A type with another shape is refused. Lengths are scaled so that the mean volume is
-/// 1. The sizes in the file may be rounded, and are replaced by the sizes of the mixture. Throws ContentError if the
+/// gives, or the name of the type; elements are the only solid of a mixture. Lengths are scaled so that the mean volume
+/// is 1. The sizes in the file may be rounded, and are replaced by the sizes of the mixture. Throws ContentError if the
 /// particles are not those of the mixture.
 Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture, const TypeNames& types = {},
                    std::vector<std::string>* notes = nullptr);

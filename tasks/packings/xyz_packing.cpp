@@ -74,7 +74,7 @@ void expect_periodic(const TextLines& lines, const Header& header) {
   const auto words = words_of(text);
   for (std::size_t k = 0; k < words.size(); ++k) {
     const auto word = lower_case(words[k]);
-    if (word == "t" || word == "true" || word == "1") continue;
+    if (words.size() == 3 && (word == "t" || word == "true" || word == "1")) continue;
     if (words.size() == 3 && (word == "f" || word == "false" || word == "0"))
       lines.refuse(fmt::format("pbc=\"{}\": the packing is not periodic along lattice vector {}", text, k + 1),
                    "use a packing that is periodic in all three directions; if it is, write pbc=\"T T T\"");
@@ -148,6 +148,12 @@ std::size_t go_to_frame(TextLines& lines, std::string_view text, int frame) {
   return *next_count(lines);
 }
 
+/// True for words like symbols of elements, "O" or "Ne", and for "X", which stands for any.
+bool is_symbol(std::string_view word) {
+  const bool small = word.size() == 1 || (word.size() == 2 && word[1] >= 'a' && word[1] <= 'z');
+  return small && word[0] >= 'A' && word[0] <= 'Z';
+}
+
 }  // namespace
 
 ForeignPacking read_xyz_packing(std::string_view text, int frame) {
@@ -175,7 +181,8 @@ ForeignPacking read_xyz_packing(std::string_view text, int frame) {
     if (words.size() != columns.count)
       lines.refuse(fmt::format("particle {} has {} columns instead of {}", i, words.size(), columns.count));
     const auto [type, added] = types.try_emplace(std::string(words[species]), static_cast<int>(types.size()));
-    if (added) packing.types.push_back({type->first, {}, {}});
+    // ASE writes symbols of elements, whatever the particles are.
+    if (added) packing.types.push_back({type->first, {}, {}, !solid && is_symbol(type->first)});
     const auto at = [&](std::size_t column) { return lines.real(words[column]); };
     const auto q = unit_quaternion({at(orientation + 3), at(orientation), at(orientation + 1), at(orientation + 2)}, i,
                                    "x y z w", lines.number());
