@@ -197,7 +197,7 @@ class Packings(Case):
             self.assertIn(word, seen[1] + seen[2])
         self.xyz(positions, quaternions, side, name="Ne")  # as ASE writes a type
         code, _, messages = self.validated("names of types", self.start(types={"X": "octahedron"}))
-        self.assertEqual((code, '"Ne" are taken for octahedron' in messages, 'no type "X"' in messages), (0, True, True))
+        self.assertEqual((code, '"Ne" is taken for octahedron' in messages, 'no type "X"' in messages), (0, True, True))
 
     def test_order_of_quaternions(self):
         a = 1.02  # cubes with a common orientation in a cell that is rotated by 45 degrees
