@@ -254,7 +254,7 @@ class Repair {
   }
 
   void expect_near(int point, double distance) {
-    if (distance > (1 + largest_planar_move) * std::max(merge_, rounded_corner * diameter_))
+    if (distance > (1 + largest_planar_move) * std::max(merge_, rounded_corner * diameter_) + 2 * tolerance_)
       throw NoSolid("the repairs would omit vertex " + std::to_string(point) + ", which is " +
                         percent(distance / diameter_) + " % of the diameter away from the result",
                     NoSolid::Cause::too_coarse, point);
