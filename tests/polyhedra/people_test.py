@@ -24,6 +24,7 @@ from polyhedron import faces
 
 PROGRAM = sys.argv[1]
 GOLDEN = (1 + 5**0.5) / 2
+TURN = Rotation.from_euler("xyz", [.3, .5, .7]).as_matrix()
 CUBE = numpy.array(list(itertools.product((0.0, 1.0), repeat=3)))
 OCTAHEDRON = numpy.vstack([numpy.eye(3), -numpy.eye(3)]) * 0.75**(1 / 3)
 
@@ -97,6 +98,13 @@ class Solids(Case):
             self.assertIn("volume changed by", text)
         self.assertGreater(refused, 0)
 
+    def test_nearly_equal_points(self):
+        random = numpy.random.default_rng(4)
+        for noise in (1e-4, 1e-5, 1e-6, 1e-7):
+            points = numpy.repeat(OCTAHEDRON @ TURN, 4, axis=0) + noise * random.normal(size=(24, 3))
+            seen, text = self.solid({"vertices": points.tolist()}, hull=True)
+            self.assertLess(abs(seen["volume"] / ConvexHull(points).volume - 1) if seen else 1, 1e-5, text)
+
     def test_the_remedy_was_tried(self):
         for digits in (5, 6, 7):
             points = {"vertices": truncated_icosidodecahedron(digits).tolist()}
@@ -109,7 +117,7 @@ class Solids(Case):
         prism, tips = numpy.vstack([circle(2500, z, 16) for z in (0, 1)]), [[0, 0, -.5], [0, 0, 1.5]]
         cone = numpy.vstack([tips, circle(5000, 0, 16)])
         for points in (prism, cone, numpy.vstack([tips, prism])):
-            for turn in numpy.eye(3), Rotation.from_euler("xyz", [.3, .5, .7]).as_matrix():
+            for turn in numpy.eye(3), TURN:
                 seen, _ = self.solid({"vertices": (points @ turn).tolist()}, hull=True, corners=64)
                 self.assertEqual(seen["vertices"], 64)
                 self.assertIn("set \"", self.solid({"vertices": (points @ turn).tolist()})[1])
@@ -141,10 +149,13 @@ class Solids(Case):
         self.assertIn("do not bound", self.solid({"planes": planes[:-1]})[1])
         octahedron = [[*sign, 1] for sign in itertools.product((-1, 1), repeat=3)]
         self.is_solid(self.solid({"planes": octahedron}), (8, 12, 6), 4 / 3)
-        for sides in (60, 255):
-            pyramid = [[0, 0, -1, 0], *([x, y, 1, 1] for x, y, _ in circle(sides).tolist())]
+        for sides, digits in ((60, 16), (255, 16), (12, 9), (20, 12), (20, 9)):
+            pyramid = numpy.vstack([[0, 0, -1, 0], numpy.c_[circle(sides, 1, 16), numpy.ones(sides)]])
+            pyramid = numpy.round(numpy.c_[pyramid[:, :3] @ TURN, pyramid[:, 3]], digits).tolist()
             seen = self.solid({"planes": pyramid})
-            if not seen[0]:
+            if seen[0]:
+                self.assertEqual(seen[0]["faces"], sides + 1)
+            else:
                 key, value = re.search(r'"(merge|corners)" to ([\d.e-]+)', seen[1]).groups()
                 seen = self.solid({"planes": pyramid}, **{key: json.loads(value), "max_volume_change": .1})
             self.assertLess(abs(seen[0]["volume"] * 3 / (sides * numpy.tan(numpy.pi / sides)) - 1), .1)
@@ -188,7 +199,7 @@ class Packings(Case):
         quaternions = turns.as_quat()
         for pbc, q, code, word in (("T T T", quaternions, 0, "deepest overlap 0"), ("1 1 1", quaternions, 0, "density"),
                                    ("F F F", quaternions, 65, "vector 1"), ("T T F", quaternions, 65, "vector 3"),
-                                   ("1 1 0", quaternions, 65, "pbc"), ("T T T", 3 * quaternions, 65, "length 3"),
+                                   ("T T", quaternions, 65, "three"), ("T T T", 3 * quaternions, 65, "length 3"),
                                    ("T T T", .8 * quaternions, 65, "length 0.8"),
                                    ("T T T", numpy.round(quaternions, 4), 0, "density")):
             self.xyz(positions, q, side, pbc)
