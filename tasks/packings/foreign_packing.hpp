@@ -19,7 +19,7 @@ struct ForeignPacking {
     std::string name;
     std::vector<Eigen::Vector3d> vertices;  ///< vertices in the body frame; empty if the file contains no shape
     std::string foreign_shape;              ///< text about a shape that is not a convex polyhedron; otherwise empty
-    bool is_element = false;                ///< the name is a chemical symbol, which does not say what has the type
+    bool is_element = false;                ///< the name is a chemical symbol, which does not state a shape
   };
   struct Body {
     int type = 0;
