@@ -1,9 +1,11 @@
 #include "engine/solve/multipliers/krylov_model.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <utility>
 
+#include "engine/solve/factor/dense.hpp"
 #include "engine/solve/minimise/descent.hpp"
 
 namespace isojam {
@@ -60,9 +62,10 @@ KrylovModel::KrylovModel(const BlockMatrix& matrix, const Preconditioner& precon
 }
 
 void KrylovModel::project(const Eigen::VectorXd& gradient, int vectors) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(projected_.topLeftCorner(vectors, vectors));
-  eigenvalues_ = solver.eigenvalues();
-  eigenvectors_ = solver.eigenvectors();
+  auto eigen = symmetric_eigen(projected_.topLeftCorner(vectors, vectors));
+  assert(eigen.values.size() == vectors);
+  eigenvalues_ = std::move(eigen.values);
+  eigenvectors_ = std::move(eigen.vectors);
   slopes_ = eigenvectors_.transpose() * (basis_.leftCols(vectors).transpose() * gradient);
 }
 
