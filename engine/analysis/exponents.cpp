@@ -74,8 +74,8 @@ ContactExponents contact_exponents(const Packing& packing, std::span<const Conta
   const Evaluation here = energy.evaluate(packing, Precision::double_double);
   if (!(here.pressure > 0)) return best;
   const double distance = best.distance = 6 / slope_of(packing, here);
-  double length = options.longest_step;
-  for (int k = 0; k < options.lengths; ++k, length /= 2) {
+  for (int k = 0; k < options.lengths; ++k) {
+    const double length = std::ldexp(options.longest_step, -k);
     for (const double step : {-length, length}) {
       Packing next = packing;
       const double density = packing.density() + step * distance;
