@@ -21,8 +21,7 @@ using Eigen::Vector3i;
 TEST(ClusterStatistics, FollowFromSizesAndExtents) {
   // Chains of 5, 3 and 1 particles along y, and optionally a ring of 2 particles through the boundary along x.
   for (const bool ring : {false, true}) {
-    std::vector<Vector3d> centres = row(11, 1);
-    Structure structure = at(20, centres);
+    Structure structure = at(20, row(11, 1));
     add_chain(structure, 0, 3);
     add_chain(structure, 3, 8);
     structure.bonds.push_back({9, 10, Vector3i::Zero()});
@@ -45,6 +44,8 @@ TEST(FractalDimension, OfStraightChainsIsOne) {
       for (int k = 0; k < n; ++k) centres.push_back(bond * k * Vector3d(2, -1, 2) / 3);
       Structure chain = at(60, centres);
       add_chain(chain, 0, n);
+      chain.packing.poses[1].position.x() -= 60;  // stored on the other side of the boundary
+      chain.bonds[0].shift.x() = 1, chain.bonds[1].shift.x() = -1;
       const FractalDimension dimension = statistics_of(chain).D_max;
       ASSERT_EQ(dimension.verdict, DimensionVerdict::fitted) << n;
       EXPECT_NEAR(dimension.D, 1, 1e-13) << n;

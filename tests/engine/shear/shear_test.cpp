@@ -65,10 +65,7 @@ class ShearOf : public testing::TestWithParam<Case> {
   }
 
   /// Strain for γ = 1, in Mandel components.
-  Vector6d direction() const {
-    Eigen::Matrix3d strain = deviator_with(.5, GetParam().mode);
-    return strain_components(strain);
-  }
+  Vector6d direction() const { return strain_components(deviator_with(.5, GetParam().mode)); }
 };
 
 INSTANTIATE_TEST_SUITE_P(Cases, ShearOf,
@@ -133,6 +130,7 @@ TEST_P(ShearOf, UnderStressControlTheStressIsTheRequestedOne) {
     EXPECT_LE((state.full_stress - wanted).cwiseAbs().maxCoeff(), 1e-8 * pressure) << k;
     EXPECT_NEAR(state.pressure, pressure, 1e-8 * pressure);
     if (state.dropped) break;
+    EXPECT_LE(std::abs(state.dissipated), 1e-8 * state.energy) << k;
     // For such a small load, compliance and strain are linear to a few per cent.
     const double expected = 2 * direction().dot(compliance * load) * state.load * pressure;
     std::printf("s/p %.0e: strain %.6e, linear %.6e\n", state.load, state.strain, expected);
@@ -163,8 +161,7 @@ TEST(ShearTest, RejectsUnjammedPackingsAndInvalidSteps) {
   ShearOptions options;
   options.step = 0;
   EXPECT_THROW(shear(packing, options), std::invalid_argument);
-  options.step = .1;
-  options.until = .05;
+  options.step = .1, options.until = .05;
   EXPECT_THROW(shear(packing, options), std::invalid_argument);
 }
 
