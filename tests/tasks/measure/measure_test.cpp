@@ -26,8 +26,7 @@ using test::violations;
 /// An outcome of `jam` with these measures.
 Outcome measured_outcome(const JamResult& jam, std::span<const Measure> measures = all_measures) {
   Outcome outcome;
-  auto manifest = test::tiny_manifest();
-  outcome.spec = test::make_plan(parse_manifest(manifest.dump(), "tiny")).front();
+  outcome.spec = test::make_plan(parse_manifest(test::tiny_manifest().dump(), "tiny")).front();
   outcome.jam = jam;
   for (const auto what : measures) outcome.measured[what] = measure(what, jam);
   return outcome;
@@ -101,11 +100,8 @@ TEST(Measure, DescribesWhatItWritesAndNothingElse) {
       for (auto& value : *places[i])
         if (places[i]->is_structured()) places.push_back(&value);
     Json& place = *places[any(places.size())];
-    if (place.is_object()) {
-      place["new"] = 1;
-    } else {
-      place = {{"new", 1}};
-    }
+    if (!place.is_object()) place = Json::object();
+    place["new"] = 1;
     EXPECT_NE(error_of(part, json), "") << json;
     ++refused;
   }
@@ -131,6 +127,12 @@ TEST(Measure, FillsTheRecordOfAJammedPacking) {
     ASSERT_TRUE(place.contains(pointer)) << quantity.name;
     EXPECT_EQ(summary.values[i].has_value(), !place.at(pointer).is_null()) << quantity.name;
   }
+  const Json &sheared = record.at("shear"), &path = sheared.at("path");
+  std::size_t drop = 0;
+  while (drop < path.size() && path[drop].at("dropped") == false) ++drop;
+  std::cout << "the packing yields in step " << drop << " of " << path.size() << "\n";
+  ASSERT_LT(drop, path.size());
+  EXPECT_EQ(sheared.at("yield_strain"), path[drop - 1].at("strain"));
 }
 
 /// Checks the numbers in the record for the rows of `matrix`, from contacts with so many constraints.
@@ -174,9 +176,8 @@ TEST(Measure, CountsConstraintsByContactsAndSingularValues) {
 
 /// A record of the jammed packing with the measures that classify its contacts.
 const Json& record_of_classes() {
-  static const Json record = [] {
-    return test::record_on_disk(measured_outcome(jammed(), std::array{Measure::contacts, Measure::rigidity}));
-  }();
+  static const Json record =
+      test::record_on_disk(measured_outcome(jammed(), std::array{Measure::contacts, Measure::rigidity}));
   return record;
 }
 

@@ -95,7 +95,7 @@ TEST(Replicate, AMissingEquilibriumAtZeroPressureIsNamed) {
 }
 
 TEST(Replicate, StatesOutsideTheFitWindowAreFlagged) {
-  const auto outside = try_with({{"fit_window", 0.02}});
+  const auto outside = try_with({{"fit_window", 0.03}});
   ASSERT_FALSE(outside.outcome.failure) << outside.outcome.failure->why;
   EXPECT_EQ(flags_of(outside.outcome), std::vector<Flag>{Flag::outside_fit_window});
   ASSERT_EQ(outside.warnings.size(), 1U);
