@@ -1,12 +1,13 @@
 #include "engine/rigidity/pair_stiffness.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <cmath>
 #include <stdexcept>
 
 #include "engine/arithmetic/elementary.hpp"
 #include "engine/parallel/parallel.hpp"
-#include "engine/solve/factor/dense.hpp"
 
 namespace isojam {
 
@@ -14,29 +15,23 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// As columns, what is no tilt of a pair: three translations, three rotations about the centre of A, and the normal.
-Eigen::MatrixXd rigid_motions_and(const Vector12d& normal, const Vector3d& r, double radius_a, double radius_b) {
-  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(12, 7);
+/// The six rigid motions of a pair, as columns: three translations, and three rotations about the centre of A.
+Eigen::Matrix<double, 12, 6> rigid_motions(const Vector3d& r, double radius_a, double radius_b) {
+  Eigen::Matrix<double, 12, 6> motions = Eigen::Matrix<double, 12, 6>::Zero();
   for (int k = 0; k < 3; ++k) {
     const Vector3d axis = Vector3d::Unit(k);
     motions.col(k) << axis, Vector3d::Zero(), axis, Vector3d::Zero();
     motions.col(3 + k) << Vector3d::Zero(), radius_a * axis, axis.cross(r), radius_b * axis;
   }
-  motions.col(6) = normal;
   return motions;
 }
 
-/// Finds the tilts, eigenvectors of the second term among the motions that are perpendicular to all others.
-void diagonalise(const Eigen::MatrixXd& others, PairStiffness& pair) {
-  const CompletedBasis basis(others);
-  Eigen::MatrixXd second = pair.second, tilts = Eigen::MatrixXd::Zero(12, 5);
-  basis.enter(second);
-  const auto among_tilts = second.bottomRightCorner<5, 5>();
-  const SymmetricEigen eigen = symmetric_eigen((among_tilts + among_tilts.transpose()) / 2);
-  tilts.bottomRows<5>() = eigen.vectors.rowwise().reverse();
-  basis.leave(tilts);
-  pair.tilts = tilts;
-  pair.tilt_stiffness = eigen.values.reverse();
+/// Orthonormal basis of the relative motions of the pair that are perpendicular to the normal.
+Eigen::Matrix<double, 12, 5> relative_motions(const Eigen::Matrix<double, 12, 6>& rigid, const Vector12d& normal) {
+  Eigen::Matrix<double, 12, 7> others;
+  others << rigid, normal;
+  const Matrix12d q = others.householderQr().householderQ();
+  return q.rightCols<5>();
 }
 
 Matrix12d assembled(const OverlapHessian& hessian, double radius_a, double radius_b) {
@@ -65,7 +60,11 @@ PairStiffness pair_stiffness(const Packing& packing, const PlacedSolids& placed,
   result.has_second = overlap.path == OverlapPath::loop;
   const Matrix12d w = assembled(hessian, radius_a, radius_b);
   result.second = overlap.volume / 4 * (w + w.transpose());
-  diagonalise(rigid_motions_and(result.normal, r.high, radius_a, radius_b), result);
+  const auto relative = relative_motions(rigid_motions(r.high, radius_a, radius_b), result.normal);
+  const Eigen::Matrix<double, 5, 5> in_them = relative.transpose() * result.second * relative;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 5, 5>> solver((in_them + in_them.transpose()) / 2);
+  result.tilts = relative * solver.eigenvectors().rowwise().reverse();
+  result.tilt_stiffness = solver.eigenvalues().reverse();
   return result;
 }
 
