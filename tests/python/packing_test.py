@@ -57,11 +57,11 @@ class Solids(support.Case):
             with gsd.hoomd.open(str(file)) as trajectory:
                 particles = trajectory[0].particles
                 shapes = [numpy.array(shape["vertices"]) for shape in particles.type_shapes]
-        turns = packing.rotations()
         for i, kind in enumerate(particles.typeid):
             self.near(packing.size[i] * packing.solids[packing.kind[i]].vertices, shapes[kind], 4 * results.FLOAT, f"shape of {i}")
-            corners = (packing.corners(i) - packing.positions[i]) @ turns[i]
-            self.near(corners, shapes[kind], 4 * results.FLOAT, f"corners of {i}")
+            w, q = particles.orientation[i, 0], particles.orientation[i, 1:]
+            turned = shapes[kind] + 2 * numpy.cross(q, numpy.cross(q, shapes[kind]) + w * shapes[kind])
+            self.near(packing.corners(i) - packing.positions[i], turned, 8 * results.FLOAT, f"corners of {i}")
 
     def test_the_program_is_asked_once_for_a_solid(self):
         study = isojam.load(CUBES)
