@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <charconv>
 #include <exception>
-#include <iterator>
 #include <system_error>
 
 #include "tasks/io/file.hpp"
@@ -117,33 +116,34 @@ RecordedReplicate read_record(const fs::path& directory, const std::string& name
 
 void read_in_order(const std::vector<std::string>& names,
                    const std::function<std::function<void()>(const std::string&)>& read) {
-  using Use = std::function<void()>;
   std::size_t next = 0;
   const auto give = [&](tbb::flow_control& control) {
     if (next == names.size()) control.stop();
     return next++;
   };
-  const auto read_one = [&](std::size_t k) -> Use {
+  // Indices go through the pipeline: what an exception leaves in it is not freed.
+  std::vector<std::function<void()>> uses(names.size());
+  const auto read_one = [&](std::size_t k) {
     try {
-      return read(names[k]);
+      uses[k] = read(names[k]);
     } catch (...) {
       // Thrown in turn, so that the first error of the list is reported.
-      return [error = std::current_exception()] { std::rethrow_exception(error); };
+      uses[k] = [error = std::current_exception()] { std::rethrow_exception(error); };
     }
+    return k;
   };
+  const auto use = [&](std::size_t k) { uses[k](), uses[k] = nullptr; };
   // At most four records for each thread are in memory.
-  tbb::parallel_pipeline(
-      4 * static_cast<std::size_t>(tbb::info::default_concurrency()),
-      tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, give) &
-          tbb::make_filter<std::size_t, Use>(tbb::filter_mode::parallel, read_one) &
-          tbb::make_filter<Use, void>(tbb::filter_mode::serial_in_order, [](const Use& use) { use(); }));
+  tbb::parallel_pipeline(4 * static_cast<std::size_t>(tbb::info::default_concurrency()),
+                         tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, give) &
+                             tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, read_one) &
+                             tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, use));
 }
 
 std::vector<Measure> lacks(const RecordedReplicate& replicate, const std::vector<Measure>& measures) {
   const auto& has = replicate.summary.measures;
-  std::vector<Measure> list;
-  std::copy_if(measures.begin(), measures.end(), std::back_inserter(list),
-               [&](Measure what) { return std::find(has.begin(), has.end(), what) == has.end(); });
+  auto list = measures;
+  std::erase_if(list, [&](Measure what) { return std::find(has.begin(), has.end(), what) != has.end(); });
   return list;
 }
 
