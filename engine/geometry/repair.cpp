@@ -15,7 +15,6 @@
 #include "engine/geometry/planar_faces.hpp"
 
 namespace isojam {
-
 namespace {
 
 using Eigen::Vector3d;
@@ -300,6 +299,92 @@ class Repair {
   RepairReport report_;
 };
 
+/// Looks for changed options with which a repair succeeds that `cause` ended.
+struct Trials {
+  std::span<const Vector3d> points;
+  RepairOptions options;
+  NoSolid::Cause cause, refused = NoSolid::Cause::other;
+  std::optional<Points> all = {};
+
+  std::optional<RepairOptions> run() {
+    if (cause == NoSolid::Cause::equal_points || cause == NoSolid::Cause::not_a_corner) {
+      RepairOptions changed = options;
+      changed.hull = true;
+      if (change(changed)) return changed;
+    }
+    auto changed = with_smaller_length();
+    if (!changed) changed = with_larger_length();
+    for (const bool welds : {true, false})
+      if (!changed) changed = with_corners(welds);
+    if (changed || options.merge == 0 || is_too_large()) return changed;
+    options.merge = 0;
+    if (change(options)) return options;
+    cause = refused;
+    return run();
+  }
+
+  bool is_too_large() const { return cause == NoSolid::Cause::too_large; }
+  bool has_many() const { return points.size() > 1000; }  ///< each try takes long
+
+  std::optional<double> change(RepairOptions changed) {
+    changed.measures_depth = false;
+    try {
+      if (!all) all.emplace(points);
+      return std::abs(Repair(*all, changed).run().report.volume_change);
+    } catch (const NoSolid& error) {
+      refused = error.cause();
+      return std::nullopt;
+    }
+  }
+
+  std::optional<RepairOptions> with_smaller_length() {
+    if (options.merge == 0 || (cause != NoSolid::Cause::too_coarse && cause != NoSolid::Cause::not_planar)) return {};
+    // With a smaller length, a solid that is already too large remains so.
+    constexpr std::array factors{.9,  .7,  .5,  .35,  .25,  .2,  .15,  .12,  .1,   .08,  .06,  .05,
+                                 .04, .03, .02, .015, .012, .01, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4};
+    RepairOptions changed = options;
+    changed.merge = factors.back() * options.merge;
+    if (options.corners > 0 && !change(changed)) return {};
+    for (std::size_t k = 0; k < factors.size() && refused != NoSolid::Cause::too_large; ++k) {
+      changed.merge = factors[k] * options.merge;
+      if ((!has_many() || k % 3 == 2) && change(changed)) return changed;
+    }
+    return {};
+  }
+
+  std::optional<RepairOptions> with_larger_length() {
+    RepairOptions changed = options;
+    changed.merge = largest_merge;
+    if (!is_too_large() && options.merge > 0) return {};
+    if (is_too_large() && (options.merge >= largest_merge || (!change(changed) && refused == cause))) return {};
+    // Smaller lengths leave faces that are almost in one plane. So many points are hardly ever welded below 1e-4.
+    for (const double merge : {is_too_large() ? 1e-6 : 1e-9, 1e-5, 1e-4, 1e-3, largest_merge}) {
+      changed.merge = merge;
+      if (merge > options.merge && (!has_many() || merge >= 1e-4) && change(changed)) return changed;
+    }
+    return {};
+  }
+
+  /// Removing corners from what was welded can fail where it succeeds with all corners.
+  std::optional<RepairOptions> with_corners(bool welds) {
+    if (cause == NoSolid::Cause::other || (!welds && (options.merge == 0 || !is_too_large()))) return {};
+    for (const int corners : {ConvexSolid::max_vertices, 112, 96, 80, ConvexSolid::max_edges / 3 + 2, 0}) {
+      if ((corners > 0) != is_too_large() || (corners > 0 && options.corners > 0)) continue;
+      if (has_many() && corners > ConvexSolid::max_edges / 3 + 2) continue;
+      RepairOptions changed = options;
+      if (!welds) changed.merge = 0;
+      if (corners > 0) changed.corners = corners;
+      changed.max_volume_change = 1;
+      const auto volume = change(changed);
+      if (!volume) continue;
+      const bool is_more = *volume > options.max_volume_change;
+      changed.max_volume_change = is_more ? std::ceil(100 * *volume) / 100 : options.max_volume_change;
+      return changed;
+    }
+    return {};
+  }
+};
+
 }  // namespace
 
 RepairedSolid repaired(std::span<const Vector3d> points, const RepairOptions& options) {
@@ -309,66 +394,7 @@ RepairedSolid repaired(std::span<const Vector3d> points, const RepairOptions& op
 
 std::optional<RepairOptions> tried_repair(std::span<const Vector3d> points, const RepairOptions& options,
                                           NoSolid::Cause cause) {
-  auto refused = NoSolid::Cause::other;
-  std::optional<Points> all;
-  const auto change = [&](RepairOptions changed) -> std::optional<double> {
-    changed.measures_depth = false;
-    try {
-      if (!all) all.emplace(points);
-      return std::abs(Repair(*all, changed).run().report.volume_change);
-    } catch (const NoSolid& error) {
-      refused = error.cause();
-      return std::nullopt;
-    }
-  };
-  constexpr std::size_t many = 1000;  // each try takes long
-  RepairOptions changed = options;
-  if (cause == NoSolid::Cause::equal_points || cause == NoSolid::Cause::not_a_corner) {
-    changed.hull = true;
-    if (change(changed)) return changed;
-  } else if (cause == NoSolid::Cause::too_coarse || cause == NoSolid::Cause::not_planar) {
-    // With a smaller length, a solid that is already too large remains so.
-    constexpr std::array factors{.9,  .7,  .5,  .35,  .25,  .2,  .15,  .12,  .1,   .08,  .06,  .05,
-                                 .04, .03, .02, .015, .012, .01, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4};
-    changed.merge = factors.back() * options.merge;
-    const bool any = options.merge > 0 && (options.corners == 0 || change(changed));
-    for (std::size_t k = 0; any && k < factors.size() && refused != NoSolid::Cause::too_large; ++k) {
-      changed.merge = factors[k] * options.merge;
-      if ((points.size() <= many || k % 3 == 2) && change(changed)) return changed;
-    }
-  }
-  changed = options;
-  changed.merge = largest_merge;
-  const bool is_too_large = cause == NoSolid::Cause::too_large;
-  if (is_too_large ? options.merge < largest_merge && (change(changed) || refused != cause) : options.merge == 0) {
-    // Smaller lengths leave faces that are almost in one plane. So many points are hardly ever welded below 1e-4.
-    for (const double merge : {is_too_large ? 1e-6 : 1e-9, 1e-5, 1e-4, 1e-3, largest_merge}) {
-      changed.merge = merge;
-      if (merge > options.merge && (points.size() <= many || merge >= 1e-4) && change(changed)) return changed;
-    }
-  }
-  // Removing corners from what was welded can fail where it succeeds with all corners.
-  for (const bool welds : {true, false}) {
-    for (const int corners : {ConvexSolid::max_vertices, 112, 96, 80, ConvexSolid::max_edges / 3 + 2, 0}) {
-      if (cause == NoSolid::Cause::other || (!welds && (options.merge == 0 || !is_too_large))) break;
-      if ((corners > 0) != is_too_large || (corners > 0 && options.corners > 0)) continue;
-      if (points.size() > many && corners > ConvexSolid::max_edges / 3 + 2) continue;
-      changed = options;
-      changed.merge = welds ? options.merge : 0;
-      changed.corners = corners == 0 ? options.corners : corners;
-      changed.max_volume_change = 1;
-      const auto volume = change(changed);
-      if (!volume) continue;
-      changed.max_volume_change = options.max_volume_change;
-      if (*volume > options.max_volume_change) changed.max_volume_change = std::ceil(100 * *volume) / 100;
-      return changed;
-    }
-  }
-  if (options.merge == 0 || is_too_large) return std::nullopt;
-  changed = options;
-  changed.merge = 0;
-  if (change(changed)) return changed;
-  return tried_repair(points, changed, refused);
+  return Trials{points, options, cause}.run();
 }
 
 }  // namespace isojam

@@ -37,7 +37,7 @@ double Sizes::quantile(double share) const {
 }
 
 std::string Sizes::text() const {
-  const auto chosen = law_text();
+  auto chosen = law_text();
   if (take == SizeChoice::quantiles) return chosen;
   return chosen + '_' + std::string(to_string(take)) + (take == SizeChoice::drawn ? std::to_string(seed) : "");
 }
