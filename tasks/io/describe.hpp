@@ -65,9 +65,11 @@ struct QuantityGroup {
 /// A text of a description. Literals are not copied, because each object that is read or written is described anew.
 class Words : public std::string_view {
  public:
+  // NOLINTBEGIN(google-explicit-constructor): a text of any kind is a text
   Words(const char* literal = "") : std::string_view(literal) {}
   Words(std::string text) : Words(std::make_shared<const std::string>(std::move(text))) {}
   operator std::string() const { return {data(), size()}; }
+  // NOLINTEND(google-explicit-constructor)
 
  private:
   explicit Words(std::shared_ptr<const std::string> text) : std::string_view(*text), owned_(std::move(text)) {}
@@ -129,11 +131,11 @@ struct Maybe {
 };
 /// A value that no struct describes, for example a choice between a number and a list. It has its own schema, which
 /// may contain definitions.
-struct Custom {
+struct Custom {                 // NOLINT(bugprone-exception-escape): to move Json throws nothing
   std::function<Json()> write;  ///< null if the field is absent
   std::function<void(const JsonPlace&)> read;
   Json schema = nullptr;
-  std::string kind = "";  ///< the allowed values in words, for the page of fields
+  std::string kind = {};  ///< the allowed values in words, for the page of fields
   /// fields of the value, if it is an object; it then needs no schema
   std::function<void(Fields&)> fields = nullptr;
 };
@@ -194,8 +196,8 @@ class Fields {
   }
   /// Adds a field.
   template <class T>
-  FieldEntry& operator()(Words key, T& member, Words meaning) {
-    return this->member(std::move(key), ref_to(member), std::move(meaning));
+  FieldEntry& operator()(const Words& key, T& member, const Words& meaning) {
+    return this->member(key, ref_to(member), meaning);
   }
   /// Adds a field whose fields `describe` adds, for a struct whose description needs more than the object.
   FieldEntry& nested(Words key, std::function<void(Fields&)> describe, Words meaning) {

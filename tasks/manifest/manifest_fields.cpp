@@ -185,6 +185,51 @@ Custom base_field(Json& base) {
           "object of swept parameters and their values"};
 }
 
+/// Keys for how packings are minimised, measured and kept.
+void describe_results(Fields& field, Manifest& manifest) {
+  const auto minimiser = [&](Fields& of) {
+    minimiser_fields(of, manifest.protocol);
+    add_places(of);
+  };
+  field
+      .nested("minimiser", minimiser,
+              "Method that brings each state of the decompression to equilibrium, and its stopping criteria.")
+      .optional();
+  field("measure", manifest.measures, "Measures to compute for the states of the decompression, in addition to φ_J.")
+      .distinct()
+      .optional();
+  field("modes", manifest.measuring.modes, "Number of vibrational modes to compute at each end of the spectrum.")
+      .range({1, 1000})
+      .optional();
+  field("shear", manifest.measuring.shear,
+        "Quasi-static shear of the state nearest jamming. Only the measure `shear` uses this key.")
+      .optional();
+  field("exponents_of_all_states", manifest.measuring.exponents_of_all_states,
+        "If true, the measure `exponents` measures all states of the decompression. If false, it measures only the "
+        "state nearest jamming.")
+      .optional();
+  field("keep_path", manifest.keep_path,
+        "If true, isojam saves the packings of all states of each decompression. If false, it saves only the states "
+        "nearest jamming. You can change this key later in the same results directory.")
+      .optional();
+  field("exclude", manifest.exclude,
+        "Flags that exclude a replicate. Excluded replicates are left out of the means, and the stopping rule ignores "
+        "them. If replicates are excluded, the tables also contain the means over all replicates. You can change this "
+        "key later in the same results directory.")
+      .distinct()
+      .optional();
+  field
+      .custom("base", base_field(manifest.base),
+              "Values of swept parameters that select the base rows. For every row that is not a base row, the tables "
+              "then list the paired differences between this row and its base row: the row that has the values in "
+              "`base` and is otherwise the same. You can change this key later in the same results directory.")
+      .optional();
+  field("start", manifest.start,
+        "Initial configurations from files, instead of random ones. Replicate k starts from file k of the list, "
+        "counted from 0. If this key is present, `sweep.solid` and `sweep.particles` must have one entry each, which "
+        "agree with the files.");
+}
+
 }  // namespace
 
 std::vector<Measure> usual_measures() {
@@ -245,47 +290,7 @@ void describe(Fields& field, Manifest& manifest) {
     add_places(of);
   };
   field.nested("protocol", protocol, "Parameters of compression and decompression.").optional();
-  const auto minimiser = [&](Fields& of) {
-    minimiser_fields(of, manifest.protocol);
-    add_places(of);
-  };
-  field
-      .nested("minimiser", minimiser,
-              "Method that brings each state of the decompression to equilibrium, and its stopping criteria.")
-      .optional();
-  field("measure", manifest.measures, "Measures to compute for the states of the decompression, in addition to φ_J.")
-      .distinct()
-      .optional();
-  field("modes", manifest.measuring.modes, "Number of vibrational modes to compute at each end of the spectrum.")
-      .range({1, 1000})
-      .optional();
-  field("shear", manifest.measuring.shear,
-        "Quasi-static shear of the state nearest jamming. Only the measure `shear` uses this key.")
-      .optional();
-  field("exponents_of_all_states", manifest.measuring.exponents_of_all_states,
-        "If true, the measure `exponents` measures all states of the decompression. If false, it measures only the "
-        "state nearest jamming.")
-      .optional();
-  field("keep_path", manifest.keep_path,
-        "If true, isojam saves the packings of all states of each decompression. If false, it saves only the states "
-        "nearest jamming. You can change this key later in the same results directory.")
-      .optional();
-  field("exclude", manifest.exclude,
-        "Flags that exclude a replicate. Excluded replicates are left out of the means, and the stopping rule ignores "
-        "them. If replicates are excluded, the tables also contain the means over all replicates. You can change this "
-        "key later in the same results directory.")
-      .distinct()
-      .optional();
-  field
-      .custom("base", base_field(manifest.base),
-              "Values of swept parameters that select the base rows. For every row that is not a base row, the tables "
-              "then list the paired differences between this row and its base row: the row that has the values in "
-              "`base` and is otherwise the same. You can change this key later in the same results directory.")
-      .optional();
-  field("start", manifest.start,
-        "Initial configurations from files, instead of random ones. Replicate k starts from file k of the list, "
-        "counted from 0. If this key is present, `sweep.solid` and `sweep.particles` must have one entry each, which "
-        "agree with the files.");
+  describe_results(field, manifest);
   add_places(field);
 }
 

@@ -94,6 +94,26 @@ RandomStream replicate_stream(const ReplicateSpec& spec, Purpose purpose) {
                       static_cast<std::uint64_t>(spec.replicate), static_cast<std::uint64_t>(purpose)};
 }
 
+static Nested start_of(Start& start, std::size_t replicate) {
+  return Nested{[&start, replicate](Fields& of) {
+    of("digest", start.files[replicate].digest, "Digest of the file.");
+    of("frame", start.frame, "Index of the frame in the file, counted from 0. The value -1 means the last frame.")
+        .range({-1e9, 1e9});
+    of("density", start.density,
+       "Density to which the packing was strained before the protocol; absent if it kept the density of the file.")
+        .range({0, 1, true})
+        .finite();
+    of("stage", start.stage,
+       "First stage of the protocol. `compression`: The packing was first compressed to the target energy. "
+       "`decompression`: The packing was treated as jammed and only decompressed. `as_given`: The packing was measured "
+       "as it was, and nothing was relaxed.");
+    of("gap", start.gap, "Pairs with a smaller gap count as contacts; absent if only overlapping pairs do.")
+        .unit("V_p^(1/3)")
+        .range({0, 1, true})
+        .finite();
+  }};
+}
+
 void describe(Fields& field, ReplicateSpec& spec) {
   field("particles", spec.particles, "Number N of particles.").range({1, 100000});
   field.custom("parameters",
@@ -124,34 +144,14 @@ void describe(Fields& field, ReplicateSpec& spec) {
           "Relative changes of the volumes of solids by the repairs that the manifest requested. Absent if no repair "
           "changed a volume.")
       .optional();
-  const auto start_of = [](Start& start, std::size_t replicate) {
-    return Nested{[&start, replicate](Fields& of) {
-      of("digest", start.files[replicate].digest, "Digest of the file.");
-      of("frame", start.frame, "Index of the frame in the file, counted from 0. The value -1 means the last frame.")
-          .range({-1e9, 1e9});
-      of("density", start.density,
-         "Density to which the packing was strained before the protocol; absent if it kept the density of the file.")
-          .range({0, 1, true})
-          .finite();
-      of("stage", start.stage,
-         "First stage of the protocol. `compression`: The packing was first compressed to the target energy. "
-         "`decompression`: The packing was treated as jammed and only decompressed. `as_given`: The packing was "
-         "measured as "
-         "it was, and nothing was relaxed.");
-      of("gap", start.gap, "Pairs with a smaller gap count as contacts; absent if only overlapping pairs do.")
-          .unit("V_p^(1/3)")
-          .range({0, 1, true})
-          .finite();
-    }};
-  };
   field.member("start",
                Maybe{[&spec] { return spec.start.has_value(); },
-                     [&spec, start_of]() -> MemberRef {
+                     [&spec]() -> MemberRef {
                        if (!spec.start) spec.start.emplace().files.resize(static_cast<std::size_t>(spec.replicate) + 1);
                        return start_of(*spec.start, static_cast<std::size_t>(spec.replicate));
                      },
                      [&spec] { spec.start.reset(); },
-                     [start_of]() -> MemberRef {
+                     []() -> MemberRef {
                        static Start example{{StartFile{}}};
                        return start_of(example, 0);
                      }},

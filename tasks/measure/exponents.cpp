@@ -147,7 +147,7 @@ void add_supported(Supported& record, const Packing& packing, const Followed& fo
       record.self_stress = rank.self_stress;
       break;
     }
-    for (auto i = loose.rbegin(); i != loose.rend(); ++i) kept.erase(kept.begin() + *i);
+    std::for_each(loose.rbegin(), loose.rend(), [&](auto i) { kept.erase(kept.begin() + i); });
   }
   record.removed.value = packing.size() - static_cast<int>(kept.size());
   if (kept.empty()) record.C.reason = record.missing.reason = record.self_stress.reason = "no particle is left";

@@ -45,7 +45,7 @@ struct AngleBins {
   std::vector<long> cells;
 };
 AngleBins bins_of(const AngleHistogram& histogram);
-void describe(Fields& field, AngleBins& bins);
+void describe(Fields& field, AngleBins& angles);
 
 /// The histogram of the alignment angles of a state, and the bins in which cut-offs may lie. These bins are below half
 /// of the smallest critical angle over all pairs of shapes.

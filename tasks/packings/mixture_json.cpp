@@ -99,7 +99,7 @@ std::vector<double> read_size_file(const JsonPlace& place) {
     TextLines raw(text, '#');
     for (auto word = raw.next_word(); !word.empty(); word = raw.next_word()) {
       const auto comma = word.find(',');
-      if (comma < word.size() - 1 && word.find('.') == word.npos && word.find(',', comma + 1) >= word.size() - 1)
+      if (comma < word.size() - 1 && word.find('.') > word.size() && word.find(',', comma + 1) >= word.size() - 1)
         raw.refuse(fmt::format("\"{}\" may be one size or two", word),
                    "write a decimal point, or a blank after the comma");
     }

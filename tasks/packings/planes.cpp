@@ -27,6 +27,19 @@ Vector3d intersection(const Eigen::Vector4d& a, const Eigen::Vector4d& b, const 
   return rounded(1 / dot(normal(a), bc) * (Quad(a[3]) * bc + Quad(b[3]) * ca + Quad(c[3]) * ab));
 }
 
+using End = std::pair<double, std::size_t>;  ///< place on the line of two planes, and a third plane
+
+/// Cuts off the part of an edge that is not on the inner side of the plane c. Each edge is what all planes leave.
+void cut(End& low, End& high, std::size_t c, double along, double room, double scale) {
+  if (std::abs(along) < parallel_planes) {
+    if (room < -plane_tolerance * scale) high.first = -infinity;
+  } else if (along > 0) {
+    high = std::min(high, {room / along, c});
+  } else {
+    low = std::max(low, {room / along, c});
+  }
+}
+
 }  // namespace
 
 std::vector<Vector3d> corners_between(std::span<const Eigen::Vector4d> planes) {
@@ -41,24 +54,15 @@ std::vector<Vector3d> corners_between(std::span<const Eigen::Vector4d> planes) {
     offsets.push_back(plane[3] / length);
     size = std::max(size, std::abs(offsets.back()));
   }
-  // Each edge is the part of the line of two planes that is on the inner side of all others.
   for (std::size_t a = 0; a < planes.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       const Vector3d line = normals[a].cross(normals[b]);
       if (line.norm() < parallel_planes) continue;
       const Vector3d foot = (offsets[a] * normals[b] - offsets[b] * normals[a]).cross(line) / line.squaredNorm();
       const double scale = std::max(size, foot.norm());
-      std::pair<double, std::size_t> low{-infinity, a}, high{infinity, a};
+      End low{-infinity, a}, high{infinity, a};
       for (std::size_t c = 0; c < planes.size() && low.first <= high.first; ++c) {
-        if (c == a || c == b) continue;
-        const double along = normals[c].dot(line), room = offsets[c] - normals[c].dot(foot);
-        if (std::abs(along) < parallel_planes) {
-          if (room < -plane_tolerance * scale) high.first = -infinity;
-        } else if (along > 0) {
-          high = std::min(high, {room / along, c});
-        } else {
-          low = std::max(low, {room / along, c});
-        }
+        if (c != a && c != b) cut(low, high, c, normals[c].dot(line), offsets[c] - normals[c].dot(foot), scale);
       }
       // In the tip of a pyramid, the lines of nearly all pairs meet, but only neighbours have an edge.
       const double length = (high.first - low.first) * line.norm();

@@ -55,9 +55,10 @@ Requests requests_in(const fs::path& directory, const Warn& warn) {
   const auto last = stored_manifest(directory);
   if (last) requests.emplace_back(*last);
   const auto text = last ? sealed(to_json(*last)) : "";
-  const auto names = kept_names(directory);
-  for (auto name = names.rbegin(); name != names.rend(); ++name) {
-    const auto file = kept_file(directory, *name).string();
+  auto names = kept_names(directory);
+  std::reverse(names.begin(), names.end());
+  for (const auto& name : names) {
+    const auto file = kept_file(directory, name).string();
     try {
       const auto kept = read_file(file);
       if (kept != text) requests.emplace_back(parse_manifest(kept, file));

@@ -34,15 +34,15 @@ void check_head(const std::string& file, std::string_view schema, std::span<cons
 
 }  // namespace
 
-void describe(Fields& field, StateFileHead& file) {
-  field("schema", file.schema, "Name and version of the file format.");
-  field("checksum", file.checksum,
+void describe(Fields& field, StateFileHead& head) {
+  field("schema", head.schema, "Name and version of the file format.");
+  field("checksum", head.checksum,
         "64-bit FNV-1a checksum of the text of the file. It is computed with zeros in place of the 16 digits of this "
         "field.");
-  field("replicate", file.identity.replicate, "Name of the replicate. It is also the name of the file of its record.");
-  field("spec_digest", file.identity.spec_digest,
+  field("replicate", head.identity.replicate, "Name of the replicate. It is also the name of the file of its record.");
+  field("spec_digest", head.identity.spec_digest,
         "Digest of the specification of the replicate without measures, and of the seed, as in the record.");
-  field("result_digest", file.identity.result_digest,
+  field("result_digest", head.identity.result_digest,
         "Field `result_digest` of the record. If measures were added later, it may be the digest from before an "
         "addition.");
 }

@@ -89,6 +89,14 @@ DirectoryLock lock_for(const fs::path& directory, const Manifest& manifest, cons
   return *std::move(lock);
 }
 
+/// Warns of records that have a problem, if there are any.
+void warn_of(const std::vector<std::string>& names, const fs::path& directory, const char* problem, const char* effect,
+             const Warn& warn) {
+  if (names.empty()) return;
+  warn(fmt::format("{}: {} {} of the records, for example {}; they {}", directory.string(), problem, names.size(),
+                   names.front(), effect));
+}
+
 }  // namespace
 
 void throw_without_records(const fs::path& directory) {
@@ -256,13 +264,12 @@ void for_each_record(const fs::path& directory, const Warn& warn, const std::fun
   std::vector<std::string> unasked, foreign, superseded;
   read_in_order(names, [&](const std::string& name) -> std::function<void()> {
     std::optional<std::string> digest;
-    bool is_asked_for = requests.empty();
-    for (const auto& plan : requests) {
+    const auto asks = [&](const auto& plan) {
       const auto place = plan.place_of(name);
       if (place && !digest) digest = plan.digest(*place);
-      is_asked_for = place && plan.requests(*place);
-      if (is_asked_for) break;
-    }
+      return place && plan.requests(*place);
+    };
+    const bool is_asked_for = requests.empty() || std::any_of(requests.begin(), requests.end(), asks);
     std::optional<RecordedReplicate> held;
     try {
       held = read_record(directory, name, kept);
@@ -283,14 +290,9 @@ void for_each_record(const fs::path& directory, const Warn& warn, const std::fun
       }
     };
   });
-  const auto report = [&](const std::vector<std::string>& these, const char* problem, const char* effect) {
-    if (these.empty()) return;
-    warn(fmt::format("{}: {} {} of the records, for example {}; they {}", directory.string(), problem, these.size(),
-                     these.front(), effect));
-  };
-  report(unasked, "no manifest requests", "count too");
-  report(foreign, "no manifest requests the settings of", "are ignored");
-  report(superseded, "only an earlier manifest requests the settings of", "are ignored");
+  warn_of(unasked, directory, "no manifest requests", "count too", warn);
+  warn_of(foreign, directory, "no manifest requests the settings of", "are ignored", warn);
+  warn_of(superseded, directory, "only an earlier manifest requests the settings of", "are ignored", warn);
 }
 
 }  // namespace isojam

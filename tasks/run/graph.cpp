@@ -129,6 +129,7 @@ class Run {
 
   void jam(Replicate& replicate) {
     Outcome& outcome = replicate.outcome;
+    std::optional<JamResult> jammed;
     if (replicate.start) {
       const Timing before = outcome.timing;
       const Stopwatch watch;
@@ -136,16 +137,15 @@ class Run {
         if (!options_.on_step) return;
         catch_callback_error([&] { options_.on_step(outcome.spec, {progress, before + watch.elapsed()}); });
       };
-      auto jammed = run_stage("jam", outcome.timing, outcome.failure, [&] {
+      jammed = run_stage("jam", outcome.timing, outcome.failure, [&] {
         return stages_.jam(outcome.spec, std::move(replicate.start->progress), stop_.get_token(), on_progress);
       });
-      if (jammed) {
-        outcome.jam = *std::move(jammed);
-        outcome.interrupted = outcome.jam.status == JamStatus::interrupted;
-        if (!outcome.interrupted) outcome.failure = failure_of(outcome.jam);
-        replicate.parts.resize(outcome.spec.measures.size());
-      }
-      outcome.interrupted |= !jammed && !outcome.failure;
+    }
+    if (jammed) {
+      outcome.jam = *std::move(jammed);
+      outcome.interrupted = outcome.jam.status == JamStatus::interrupted;
+      if (!outcome.interrupted) outcome.failure = failure_of(outcome.jam);
+      replicate.parts.resize(outcome.spec.measures.size());
     } else {
       outcome.interrupted = !outcome.failure;
     }

@@ -148,23 +148,24 @@ void RecordRows::add_fields(const Fields& fields, Quantity::Of of, std::size_t k
   constexpr std::array<std::string_view, 7> of_head{"/schema",   "/checksum", "/spec/",        "/status",
                                                     "/failure/", "/nearest",  "/result_digest"};
   const auto all = all_quantities();
-  for (auto& [name, pointer, field, can_be_absent] : columns_of(fields)) {
+  for (const auto& column : columns_of(fields)) {
+    auto name = column.name;
     const bool is_quantity = std::any_of(all.begin(), all.end(), [&](const Quantity& quantity) {
-      return quantity.of == of && quantity.pointer == pointer;
+      return quantity.of == of && quantity.pointer == column.pointer;
     });
-    const bool is_in_head =
-        std::any_of(of_head.begin(), of_head.end(), [&](const auto start) { return pointer.starts_with(start); });
-    if (is_quantity || is_in_head || field.apart || is_of_more_kinds(pointer, kinds)) continue;
+    const bool is_in_head = std::any_of(of_head.begin(), of_head.end(),
+                                        [&](const auto start) { return column.pointer.starts_with(start); });
+    if (is_quantity || is_in_head || column.field.apart || is_of_more_kinds(column.pointer, kinds)) continue;
     for (const std::string_view object : {"provenance.", "timing."}) {
       if (name.starts_with(object)) name.erase(0, object.size());
     }
-    const Json absent = field.presence == Presence::if_true ? Json(false) : Json(nullptr);
-    const auto value = [of, absent, pointer = pointer](const Source& s) {
+    const Json absent = column.field.presence == Presence::if_true ? Json(false) : Json(nullptr);
+    const auto value = [of, absent, pointer = column.pointer](const Source& s) {
       const auto* object = of == Quantity::Of::replicate ? &s.held.record : s.state;
       const auto* found = object ? value_at(*object, pointer) : nullptr;
       return found || !object ? copy_of(found) : absent;
     };
-    is_text(field) ? add_text(name, value) : add(name, value);
+    is_text(column.field) ? add_text(name, value) : add(name, value);
   }
 }
 
