@@ -14,7 +14,6 @@ using constructed::add_chain;
 using constructed::at;
 using constructed::block;
 using constructed::row;
-using constructed::statistics_of;
 using constructed::Structure;
 
 RandomPercolation drawn(const Structure& structure, std::size_t bonds, int draws, std::uint64_t key = 1) {

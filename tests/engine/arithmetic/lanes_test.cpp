@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -43,7 +44,8 @@ void expect_lanes(Lanes found, const Expected& expected, std::optional<double> t
   const Four x = stored(found);
   for (int k = 0; k < 4; ++k) {
     const double y = expected(k);
-    const bool same = tolerance ? std::abs(x[k] - y) <= *tolerance : std::memcmp(&x[k], &y, sizeof(y)) == 0;
+    const bool same = tolerance ? std::abs(x[k] - y) <= *tolerance
+                                : std::bit_cast<std::uint64_t>(x[k]) == std::bit_cast<std::uint64_t>(y);
     EXPECT_TRUE(same) << x[k] << " instead of " << y << " in lane " << k;
   }
 }

@@ -11,8 +11,6 @@
 namespace isojam {
 namespace {
 
-using testing_packings::epsilon;
-
 constexpr double density = 0.8;
 
 bool same_bits(const EnvelopeEvaluation& p, const EnvelopeEvaluation& q) {

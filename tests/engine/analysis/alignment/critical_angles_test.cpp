@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/geometry/solids/solid.hpp"
+#include "engine/random/stream.hpp"
 
 namespace isojam {
 namespace {

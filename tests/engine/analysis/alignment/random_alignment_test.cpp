@@ -28,7 +28,6 @@ using oracle::kolmogorov_distance;
 using oracle::kolmogorov_probability;
 using oracle::sample_edge_constrained;
 using oracle::sample_unconstrained;
-using std::numbers::pi;
 using Angle = double AlignmentAngles::*;
 
 constexpr int many = 100000;

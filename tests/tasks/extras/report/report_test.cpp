@@ -44,7 +44,7 @@ RecordedReplicate recorded(const Outcome& outcome) {
 }
 
 /// A manifest and records.
-struct Results {
+struct Results {  // NOLINT(bugprone-exception-escape): to move Json throws nothing
   Json manifest;
   std::vector<RecordedReplicate> replicates;
 };
