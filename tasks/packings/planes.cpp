@@ -29,7 +29,8 @@ Vector3d intersection(const Eigen::Vector4d& a, const Eigen::Vector4d& b, const 
 
 using End = std::pair<double, std::size_t>;  ///< place on the line of two planes, and a third plane
 
-/// Cuts off the part of an edge that is not on the inner side of the plane c. Each edge is what all planes leave.
+/// Cuts off the part of an edge that is not on the inner side of the plane c. Each edge is what all planes leave; its own
+/// two are parallel to it.
 void cut(End& low, End& high, std::size_t c, double along, double room, double scale) {
   if (std::abs(along) < parallel_planes) {
     if (room < -plane_tolerance * scale) high.first = -infinity;
@@ -61,9 +62,8 @@ std::vector<Vector3d> corners_between(std::span<const Eigen::Vector4d> planes) {
       const Vector3d foot = (offsets[a] * normals[b] - offsets[b] * normals[a]).cross(line) / line.squaredNorm();
       const double scale = std::max(size, foot.norm());
       End low{-infinity, a}, high{infinity, a};
-      for (std::size_t c = 0; c < planes.size() && low.first <= high.first; ++c) {
-        if (c != a && c != b) cut(low, high, c, normals[c].dot(line), offsets[c] - normals[c].dot(foot), scale);
-      }
+      for (std::size_t c = 0; c < planes.size() && low.first <= high.first; ++c)
+        cut(low, high, c, normals[c].dot(line), offsets[c] - normals[c].dot(foot), scale);
       // In the tip of a pyramid, the lines of nearly all pairs meet, but only neighbours have an edge.
       const double length = (high.first - low.first) * line.norm();
       if (!(length > shortest_edge * scale)) continue;
