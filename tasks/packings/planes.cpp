@@ -29,8 +29,8 @@ Vector3d intersection(const Eigen::Vector4d& a, const Eigen::Vector4d& b, const 
 
 using End = std::pair<double, std::size_t>;  ///< place on the line of two planes, and a third plane
 
-/// Cuts off the part of an edge that is not on the inner side of the plane c. Each edge is what all planes leave; its own
-/// two are parallel to it.
+/// Cuts off the part of an edge that is not on the inner side of the plane c. Each edge is what all planes leave. Its
+/// own two are parallel to it.
 void cut(End& low, End& high, std::size_t c, double along, double room, double scale) {
   if (std::abs(along) < parallel_planes) {
     if (room < -plane_tolerance * scale) high.first = -infinity;

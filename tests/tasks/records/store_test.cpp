@@ -16,7 +16,6 @@
 namespace isojam {
 namespace {
 
-using test::files_below;
 using test::TemporaryDirectory;
 using test::unheard;
 using test::Warnings;
