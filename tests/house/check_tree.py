@@ -19,7 +19,7 @@ import re
 import subprocess
 import sys
 
-BUDGET = 99922
+BUDGET = 99932
 COUNTED = re.compile(r"(?!schemas/|.*/data/).*\.(cpp|hpp|h|py|js|css|sh|md|cmake|txt|in|json)")
 MAX_LINES = 400
 WIDE_COMMENT = re.compile(r'[^"]*//(?!.*NOLINT)')
