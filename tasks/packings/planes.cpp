@@ -19,7 +19,10 @@ using Eigen::Vector3d;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double parallel_planes = 1e-9;   ///< least volume that three unit normals span
 constexpr double plane_tolerance = 1e-11;  ///< of a height above a plane, relative to the size
-constexpr double shortest_edge = 1e-9;     ///< relative to the size
+/// Sine of the angle of two planes below which their line has a larger error than plane_tolerance. Its corners are also
+/// on other lines, except for the tip of a pyramid that is as flat, which is left out.
+constexpr double inaccurate_line = 1e-5;
+constexpr double shortest_edge = 1e-9;  ///< relative to the size
 
 Vector3d intersection(const Eigen::Vector4d& a, const Eigen::Vector4d& b, const Eigen::Vector4d& c) {
   const auto normal = [](const Eigen::Vector4d& plane) { return Quad3{plane[0], plane[1], plane[2]}; };
@@ -58,7 +61,7 @@ std::vector<Vector3d> corners_between(std::span<const Eigen::Vector4d> planes) {
   for (std::size_t a = 0; a < planes.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       const Vector3d line = normals[a].cross(normals[b]);
-      if (line.norm() < parallel_planes) continue;
+      if (line.norm() < inaccurate_line) continue;
       const Vector3d foot = (offsets[a] * normals[b] - offsets[b] * normals[a]).cross(line) / line.squaredNorm();
       const double scale = std::max(size, foot.norm());
       End low{-infinity, a}, high{infinity, a};

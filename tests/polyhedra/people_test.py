@@ -16,7 +16,7 @@ import unittest
 import gsd.hoomd
 import numpy
 from scipy.optimize import linprog
-from scipy.spatial import ConvexHull, HalfspaceIntersection
+from scipy.spatial import ConvexHull, HalfspaceIntersection, HalfspaceIntersection
 from scipy.spatial.transform import Rotation
 
 import study
@@ -104,6 +104,16 @@ class Solids(Case):
             points = numpy.repeat(OCTAHEDRON @ TURN, 4, axis=0) + noise * random.normal(size=(24, 3))
             seen, text = self.solid({"vertices": points.tolist()}, hull=True)
             self.assertLess(abs(seen["volume"] / ConvexHull(points).volume - 1) if seen else 1, 1e-5, text)
+
+    def test_nearly_parallel_planes(self):
+        random = numpy.random.default_rng(9)
+        for tilt in numpy.repeat(10.0 ** numpy.arange(-10, -5), 4):
+            normals = numpy.repeat(random.normal(size=(12, 3)), 2, axis=0)
+            normals[::2] += tilt * random.normal(size=(12, 3))
+            planes = numpy.c_[normals / numpy.linalg.norm(normals, axis=1)[:, None], numpy.ones(24)]
+            seen, text = self.solid({"planes": planes.tolist()}, 20000, merge=1e-4)
+            corners = HalfspaceIntersection(planes * [1, 1, 1, -1], numpy.zeros(3)).intersections
+            self.assertLess(abs(seen["volume"] / ConvexHull(corners).volume - 1) if seen else 1, 1e-4, text)
 
     def test_the_remedy_was_tried(self):
         for digits in (5, 6, 7):
