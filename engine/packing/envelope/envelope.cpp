@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "engine/packing/pair_search.hpp"
@@ -12,6 +13,10 @@
 namespace isojam {
 
 namespace {
+
+std::shared_ptr<const ProximalContact> kept(ProximalContact contact) {
+  return std::make_shared<const ProximalContact>(std::move(contact));
+}
 
 /// The multiplier of each pair of the neighbour list, or null if `forces` does not contain the pair.
 std::vector<const ContactMultiplier*> by_pair(const std::vector<NeighbourPair>& pairs,
@@ -24,7 +29,7 @@ std::vector<const ContactMultiplier*> by_pair(const std::vector<NeighbourPair>& 
 }
 
 void add(const EnvelopeContact& contact, EnvelopeEvaluation& sum) {
-  const ProximalContact& at = contact.at;
+  const ProximalContact& at = *contact.at;
   sum.value += at.value;
   sum.noise += std::numeric_limits<double>::epsilon() *
                (at.energy + std::abs(at.shift.dot(contact.multiplier)) + std::abs(at.shift.dot(at.wrench)));
@@ -41,9 +46,9 @@ void add(const EnvelopeContact& contact, EnvelopeEvaluation& sum) {
 EnvelopeEvaluation summed(std::vector<EnvelopeContact> contacts, int particles) {
   EnvelopeEvaluation sum;
   sum.gradient = Eigen::VectorXd::Zero(6 * particles);
-  for (const EnvelopeContact& contact : contacts) sum.overlaps += contact.at.iterations;
+  for (const EnvelopeContact& contact : contacts) sum.overlaps += contact.at->iterations;
   std::erase_if(contacts,
-                [](const EnvelopeContact& contact) { return !contact.at.touching && contact.multiplier.isZero(0); });
+                [](const EnvelopeContact& contact) { return !contact.at->touching && contact.multiplier.isZero(0); });
   for (const EnvelopeContact& contact : contacts) add(contact, sum);
   if (sum.touching > 0) sum.mean_force /= static_cast<double>(sum.touching);
   sum.contacts = std::move(contacts);
@@ -109,26 +114,26 @@ EnvelopeEvaluation EnvelopeEnergy::evaluate(const Packing& packing, std::span<co
     Vector6d start = Vector6d::Zero();
     if (const ContactMultiplier* force = force_of[near[slot]]) {
       if (force->plain) {
-        out.at = plain_contact(placed_[out.pair.a], placed_[out.pair.b], packing.poses[out.pair.b], r);
-        out.multiplier = out.at.wrench;
+        out.at = kept(plain_contact(placed_[out.pair.a], placed_[out.pair.b], packing.poses[out.pair.b], r));
+        out.multiplier = out.at->wrench;
         return;
       }
       out.multiplier = force->multiplier, start = force->shift;
     }
-    out.at = proximal_contact(placed_[out.pair.a], packing.solids[out.pair.b], packing.poses[out.pair.b], r,
-                              {out.multiplier, terms.stiffness, terms.series_below}, start);
+    out.at = kept(proximal_contact(placed_[out.pair.a], packing.solids[out.pair.b], packing.poses[out.pair.b], r,
+                                   {out.multiplier, terms.stiffness, terms.series_below}, start));
   });
 }
 
 EnvelopeEvaluation EnvelopeEnergy::unshifted(const Packing& packing, double stiffness) {
   place(packing);
   const std::vector<const ContactMultiplier*> none(list_.pairs().size(), nullptr);
-  return evaluate_pairs(
-      packing, near_pairs(packing, none, {}), [&](std::size_t, const DoubleDoubleVector& r, EnvelopeContact& out) {
-        out.at =
-            unshifted_contact(placed_[out.pair.a], packing.solids[out.pair.b], packing.poses[out.pair.b], r, stiffness);
-        out.multiplier = out.at.wrench;
-      });
+  return evaluate_pairs(packing, near_pairs(packing, none, {}),
+                        [&](std::size_t, const DoubleDoubleVector& r, EnvelopeContact& out) {
+                          out.at = kept(unshifted_contact(placed_[out.pair.a], packing.solids[out.pair.b],
+                                                          packing.poses[out.pair.b], r, stiffness));
+                          out.multiplier = out.at->wrench;
+                        });
 }
 
 EnvelopeEvaluation part_of(const EnvelopeEvaluation& whole, std::span<const char> only) {
@@ -155,15 +160,15 @@ EnvelopeEvaluation with_part(const EnvelopeEvaluation& before, const EnvelopeEva
 
 BlockMatrix curvature(const EnvelopeEvaluation& evaluation, int particles, CellFreedom cell) {
   std::vector<PairHessian> terms(evaluation.contacts.size());
-  for_each_small(terms.size(), [&](std::size_t k) { terms[k] = evaluation.contacts[k].at.curvature(); });
+  for_each_small(terms.size(), [&](std::size_t k) { terms[k] = evaluation.contacts[k].at->curvature(); });
   BlockMatrix sum;
   sum.diagonal.assign(static_cast<std::size_t>(particles), Matrix6d::Zero());
   StrainBorder border(cell, particles, sum);
   for (std::size_t k = 0; k < terms.size(); ++k) {
     const EnvelopeContact& contact = evaluation.contacts[k];
-    if (!contact.at.touching) continue;
+    if (!contact.at->touching) continue;
     sum.add_pair(contact.pair.a, contact.pair.b, terms[k].aa, terms[k].ab, terms[k].bb);
-    border.add_pair(contact.pair.a, contact.pair.b, terms[k], contact.at.gradient_b.head<3>(), contact.displacement);
+    border.add_pair(contact.pair.a, contact.pair.b, terms[k], contact.at->gradient_b.head<3>(), contact.displacement);
   }
   border.finish();
   return sum;
@@ -173,13 +178,13 @@ std::vector<ContactMultiplier> forces_of(const EnvelopeEvaluation& evaluation) {
   std::vector<ContactMultiplier> forces;
   forces.reserve(evaluation.contacts.size());
   for (const EnvelopeContact& contact : evaluation.contacts)
-    forces.push_back({contact.pair, contact.multiplier, contact.at.shift, contact.at.plain});
+    forces.push_back({contact.pair, contact.multiplier, contact.at->shift, contact.at->plain});
   return forces;
 }
 
 void mark_soft(const EnvelopeEvaluation& evaluation, double limit, std::vector<ContactMultiplier>& forces) {
   for (std::size_t k = 0; k < forces.size(); ++k) {
-    const ProximalContact& at = evaluation.contacts[k].at;
+    const ProximalContact& at = *evaluation.contacts[k].at;
     forces[k].plain = at.touching && std::max(at.ghost.aa.norm(), at.ghost.bb.norm()) < limit;
   }
 }

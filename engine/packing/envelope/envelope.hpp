@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -30,7 +31,7 @@ struct EnvelopeContact {
   NeighbourPair pair;                                      ///< the particles, and the image of b
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< displacement from a to the image of b, lab frame
   Vector6d multiplier = Vector6d::Zero();                  ///< multiplier μ, in the body frame of B
-  ProximalContact at;                                      ///< envelope of this pair in the present state
+  std::shared_ptr<const ProximalContact> at;  ///< envelope of this pair in the present state, shared by copies
 };
 
 /// Envelope of a packing, Φ = Σ_pairs min_w [ e(w) + ½ ρ |w|² − μ·w ], as a function of the coordinates of the

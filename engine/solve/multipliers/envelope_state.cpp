@@ -67,9 +67,9 @@ std::vector<ContactMultiplier> forces_after(const EnvelopeState& state, const Ei
   const Eigen::Matrix3d strain = strain_of(step, state.packing.size());
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const EnvelopeContact& contact = state.value.contacts[k];
-    if (!contact.at.touching) continue;
+    if (!contact.at->touching) continue;
     const Vector6d change =
-        contact.at.shift_change(step.segment<6>(6 * contact.pair.a), step_of_b(contact, step, strain));
+        contact.at->shift_change(step.segment<6>(6 * contact.pair.a), step_of_b(contact, step, strain));
     forces[k].shift += to_body(state.packing.poses[contact.pair.b], change);
   }
   return forces;

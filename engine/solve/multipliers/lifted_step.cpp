@@ -32,14 +32,14 @@ std::optional<EnvelopeState> lifted_step(const EnvelopeState& state, double stif
   Eigen::VectorXd gradient = state.value.gradient;
   Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
   const auto shift_of = [&](const EnvelopeContact& contact) {
-    return to_lab(state.packing.poses[contact.pair.b], contact.at.shift);
+    return to_lab(state.packing.poses[contact.pair.b], contact.at->shift);
   };
   for (const EnvelopeContact& contact : state.value.contacts) {
-    if (!contact.at.touching) continue;
-    const PairHessian& h = curvatures.emplace_back(contact.at.curvature(stiffness));
+    if (!contact.at->touching) continue;
+    const PairHessian& h = curvatures.emplace_back(contact.at->curvature(stiffness));
     const Vector6d w = shift_of(contact);
     hessian.add_pair(contact.pair.a, contact.pair.b, h.aa, h.ab, h.bb);
-    border.add_pair(contact.pair.a, contact.pair.b, h, contact.at.gradient_b.head<3>(), contact.displacement);
+    border.add_pair(contact.pair.a, contact.pair.b, h, contact.at->gradient_b.head<3>(), contact.displacement);
     const Vector6d of_b = h.bb * w;
     gradient.segment<6>(6 * contact.pair.a) -= h.ab * w;
     gradient.segment<6>(6 * contact.pair.b) -= of_b;
@@ -56,13 +56,13 @@ std::optional<EnvelopeState> lifted_step(const EnvelopeState& state, double stif
   std::vector<ContactMultiplier> forces;
   auto curvature = curvatures.begin();
   for (const EnvelopeContact& contact : state.value.contacts) {
-    if (!contact.at.touching) continue;
+    if (!contact.at->touching) continue;
     const PairHessian& h = *curvature++;
     const Vector6d of_a = step.segment<6>(6 * contact.pair.a);
     const Vector6d of_ghost = step_of_b(contact, step, strain) - shift_of(contact);
     const Vector6d change = h.ab.transpose() * of_a + h.bb * of_ghost;
     forces.push_back(
-        {contact.pair, contact.at.wrench + to_body(state.packing.poses[contact.pair.b], change), Vector6d::Zero()});
+        {contact.pair, contact.at->wrench + to_body(state.packing.poses[contact.pair.b], change), Vector6d::Zero()});
   }
   return evaluator.at(moved(state.packing, step), forces);
 }

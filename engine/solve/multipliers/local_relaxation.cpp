@@ -32,8 +32,8 @@ std::vector<NeighbourPair> mispredictions(const EnvelopeState& here, const Envel
     const NeighbourPair& pair = contact.pair;
     const EnvelopeContact* same = before.find(pair);
     const double predicted_decrease =
-        same ? same->at.predicted(step.segment<6>(6 * pair.a), step_of_b(*same, step, strain)) : 0;
-    if (std::abs(contact.at.value - predicted_decrease) > tolerance) found.push_back(pair);
+        same ? same->at->predicted(step.segment<6>(6 * pair.a), step_of_b(*same, step, strain)) : 0;
+    if (std::abs(contact.at->value - predicted_decrease) > tolerance) found.push_back(pair);
   }
   return found;
 }

@@ -105,7 +105,7 @@ constexpr double limits_hold_for = 400;
 bool cannot_be_rigid(const EnvelopeEvaluation& value) {
   std::vector<char> touched(static_cast<std::size_t>(value.gradient.size() / 6), 0);
   for (const EnvelopeContact& contact : value.contacts) {
-    if (contact.at.touching) touched[contact.pair.a] = touched[contact.pair.b] = 1;
+    if (contact.at->touching) touched[contact.pair.a] = touched[contact.pair.b] = 1;
   }
   return 3 * value.touching < 6 * std::count(touched.begin(), touched.end(), 1) - 3;
 }
@@ -250,7 +250,7 @@ class Multipliers {
     std::vector<ContactMultiplier> forces = forces_of(here_.value);
     const double part = renewals_ > damped_after ? damped_part : 1;
     for (std::size_t k = 0; k < forces.size(); ++k)
-      forces[k].multiplier += part * (here_.value.contacts[k].at.wrench - forces[k].multiplier);
+      forces[k].multiplier += part * (here_.value.contacts[k].at->wrench - forces[k].multiplier);
     mark_soft(here_.value, plain_below * stiffening * descent_.stiffness(), forces);
     here_ = evaluator_.at(std::move(here_.packing), forces);
   }

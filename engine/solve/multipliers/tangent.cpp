@@ -20,7 +20,7 @@ Eigen::VectorXd change_of_gradient(const EnvelopeState& from, const Eigen::Matri
   Eigen::VectorXd change = Eigen::VectorXd::Zero(from.value.gradient.size());
   Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
   for (const EnvelopeContact& contact : from.value.contacts) {
-    const PairHessian h = contact.at.curvature();
+    const PairHessian h = contact.at->curvature();
     const Vector6d of_b = h.bb * stretched(contact, imposed);
     change.segment<6>(6 * contact.pair.a) += h.ab * stretched(contact, imposed);
     change.segment<6>(6 * contact.pair.b) += of_b;
@@ -51,7 +51,7 @@ Tangent tangent(const EnvelopeState& from, const Eigen::Matrix3d& imposed, doubl
     const EnvelopeContact& contact = from.value.contacts[k];
     const Vector6d a = result.step.segment<6>(6 * contact.pair.a);
     const Vector6d b = step_of_b(contact, result.step, strain) + stretched(contact, imposed);
-    result.forces[k].shift = to_body(from.packing.poses[contact.pair.b], contact.at.shift_change(a, b));
+    result.forces[k].shift = to_body(from.packing.poses[contact.pair.b], contact.at->shift_change(a, b));
   }
   return result;
 }

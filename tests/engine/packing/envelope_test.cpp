@@ -16,7 +16,7 @@ constexpr double density = 0.8;
 bool same_bits(const EnvelopeEvaluation& p, const EnvelopeEvaluation& q) {
   return p.value == q.value && p.gradient == q.gradient && p.contacts.size() == q.contacts.size() &&
          std::equal(p.contacts.begin(), p.contacts.end(), q.contacts.begin(), [](const auto& c, const auto& d) {
-           return c.at.shift == d.at.shift && c.at.wrench == d.at.wrench && c.at.root == d.at.root;
+           return c.at->shift == d.at->shift && c.at->wrench == d.at->wrench && c.at->root == d.at->root;
          });
 }
 

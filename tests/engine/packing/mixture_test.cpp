@@ -137,7 +137,7 @@ TEST(MixtureEnvelope, IsTheEnergyAndHasItsSlopes) {
   const EnvelopeEvaluation here = envelope.evaluate(packing, forces, {stiffness});
   const BlockMatrix curvature_here = curvature(here, packing.size());
   double longest = 0;
-  for (const EnvelopeContact& contact : here.contacts) longest = std::max(longest, contact.at.shift.norm());
+  for (const EnvelopeContact& contact : here.contacts) longest = std::max(longest, contact.at->shift.norm());
   EXPECT_LT(longest, 1e-2);
   for (int k = 0; k < 4; ++k) {
     const Eigen::VectorXd u = random_step(random, packing.size()).normalized();
