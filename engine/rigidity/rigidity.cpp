@@ -193,7 +193,9 @@ Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& o
     space = softest(matrix, soft, k);
     const Index dropped = count(result, space.sigma, constraints, coordinates);
     if (options.stresses) result.stresses = space.combinations.rightCols(dropped);
-    if (space.sigma.size() - dropped >= least_beyond || space.sigma.size() == constraints) return result;
+    // Translations are always floppy. A higher rank means that directions with a singular value of zero are missing.
+    const bool enough = space.sigma.size() - dropped >= least_beyond && result.rank <= coordinates - 3;
+    if (enough || space.sigma.size() == constraints) return result;
   }
 }
 
