@@ -1,5 +1,5 @@
-# Verbs: run test build bench bench-against paper percolation reproducibility docs test-asan fuzz polyhedra
-# test-slurm test-debian12 test-debian13 package test-packages lint format packages clean. On Debian 12 and 13 each verb
+# Verbs: run test build bench bench-against paper percolation compression reproducibility docs test-asan fuzz
+# polyhedra test-slurm test-debian12 test-debian13 package test-packages lint format packages clean. On Debian 12 and 13 each verb
 # first installs the packages that it needs and that are missing.
 #   make lint LINT='engine/solve/jam.cpp'
 #   make run BUILD=/tmp/isojam/build OUTPUT=/tmp/isojam/results     # from a source folder that cannot be written
@@ -62,7 +62,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DISOJAM_NATIVE=ON -DCMAKE_EXPORT_CO
 # and forth between `make run` and `make test` compiles nothing twice.
 CONFIGURE_PROGRAM = $(CONFIGURE) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DISOJAM_TESTS=OFF)
 
-.PHONY: build run test test-asan fuzz test-slurm bench paper percolation docs lint format clean
+.PHONY: build run test test-asan fuzz test-slurm bench paper percolation compression docs lint format clean
 .DEFAULT_GOAL := build
 
 # Names other folders where the source folder cannot be written.
@@ -122,6 +122,14 @@ percolation: build
 	$(call studies,$(PERCOLATION),percolation)
 	@$(PYTHON) -B examples/percolation/gather.py $(BUILD)/isojam results results/percolation/records.json $(addprefix percolation-,$(PERCOLATION))
 	$(call page,percolation,results/percolation/records.json)
+
+compression: build
+	$(call install,python3 python3-matplotlib python3-pandas python3-scipy)
+	$(call studies,compression compression-tetrahedra compression-start,02-strain-step)
+	@for study in results/02-strain-step-compression*/; do \
+	  $(BUILD)/isojam --quiet export $$study all --format replicates -o $${study%/}.csv || exit 1; \
+	done
+	@$(PYTHON) -B examples/02-strain-step/compression.py results/02-strain-step-compression*.csv
 
 # A cross build for arm64. Its libraries are Debian's packages, unpacked in a folder: nothing of them is installed.
 ARM64 = $(abspath $(BUILD)-arm64)

@@ -22,7 +22,7 @@ void CohesionEnergy::update(const Packing& packing, Precision precision, PairCou
 const PairTerms& CohesionEnergy::evaluate(const Packing& packing, Precision precision, PairCounts& counts) {
   overlaps_.forget();  // as in PackingEnergy::evaluate()
   update(packing, precision, counts);
-  set_terms(packing, overlaps_.pairs(), overlaps_.touching(), {0, -cohesion_.strength}, terms_);
+  set_terms(packing, precision, overlaps_.pairs(), overlaps_.touching(), {0, -cohesion_.strength}, terms_);
   return terms_;
 }
 

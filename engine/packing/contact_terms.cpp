@@ -18,8 +18,8 @@ double relative_error(const ConvexSolid& a, const ConvexSolid& b, const Eigen::V
 }
 
 /// ∂e/∂x_A = (de/dV) S_A, ∂e/∂θ_A = (de/dV) M_A.
-ContactTerms contact_terms(const Packing& packing, const NeighbourPair& pair, const Overlap& overlap,
-                           const PairLaw& law) {
+ContactTerms contact_terms(const Packing& packing, Precision precision, const NeighbourPair& pair,
+                           const Overlap& overlap, const PairLaw& law) {
   const double v = overlap.volume, slope = 2 * law.quadratic * v + law.linear;
   ContactTerms terms;
   const Eigen::Vector3d r = displacement(packing, pair);
@@ -36,19 +36,20 @@ ContactTerms contact_terms(const Packing& packing, const NeighbourPair& pair, co
   const Eigen::Vector3d moment_b = r.cross(overlap.area) - overlap.moment;
   terms.stiffness_a = (square + overlap.moment.squaredNorm() / (radius_a * radius_a)) / 2;
   terms.stiffness_b = (square + moment_b.squaredNorm() / (radius_b * radius_b)) / 2;
-  terms.error = relative_error(a, b, r, overlap);
+  if (precision == Precision::double_double) terms.error = relative_error(a, b, r, overlap);
   return terms;
 }
 
 }  // namespace
 
-void set_terms(const Packing& packing, std::span<const NeighbourPair> pairs, const TouchingPairs& touching,
-               const PairLaw& law, PairTerms& terms) {
+void set_terms(const Packing& packing, Precision precision, std::span<const NeighbourPair> pairs,
+               const TouchingPairs& touching, const PairLaw& law, PairTerms& terms) {
   terms.blocks.resize(touching.blocks.size());
   for_each_index(terms.blocks.size(), [&](std::size_t block) {
     terms.blocks[block].clear();
     for (const PairOverlap& at : touching.blocks[block])
-      terms.blocks[block].push_back({pairs[at.pair], contact_terms(packing, pairs[at.pair], at.overlap, law)});
+      terms.blocks[block].push_back(
+          {pairs[at.pair], contact_terms(packing, precision, pairs[at.pair], at.overlap, law)});
   });
 }
 

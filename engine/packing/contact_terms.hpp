@@ -18,7 +18,7 @@ struct ContactTerms {
   double energy = 0, force = 0;  ///< energy e of the pair, and force |F|
   /// ½ |∇V|², with derivatives with respect to one particle only: a for stiffness_a, and b for stiffness_b
   double stiffness_a = 0, stiffness_b = 0;
-  double error = 0;  ///< relative error ρ_c, see Evaluation::residual_floor
+  double error = 0;  ///< relative error ρ_c, see Evaluation::residual_floor; 0 with Precision::working
 };
 
 /// Contributions of the touching pairs of a neighbour list.
@@ -38,7 +38,7 @@ struct PairLaw {
 };
 
 /// Computes the contributions of all touching pairs of a neighbour list, and writes them to `terms`.
-void set_terms(const Packing& packing, std::span<const NeighbourPair> pairs, const TouchingPairs& touching,
-               const PairLaw& law, PairTerms& terms);
+void set_terms(const Packing& packing, Precision precision, std::span<const NeighbourPair> pairs,
+               const TouchingPairs& touching, const PairLaw& law, PairTerms& terms);
 
 }  // namespace isojam

@@ -119,7 +119,7 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
   Accumulator sums{0, zeros, zeros};
   // The terms of the pairs are computed in parallel. They are added serially, because the order of additions determines
   // their rounding.
-  set_terms(packing, overlaps_.pairs(), overlaps_.touching(), {}, terms_);
+  set_terms(packing, precision, overlaps_.pairs(), overlaps_.touching(), {}, terms_);
   for (const auto& block : terms_.blocks) {
     for (const PairTerms::Entry& at : block) add_contact(at.pair, at.terms, result, sums);
   }

@@ -25,8 +25,10 @@ constexpr double followed_within = 1;
 /// A failed step then does not mean that the solution branch has ended, and the steps after it are no longer extended.
 constexpr double near_jamming = 1e-3;
 
-/// Residual of the first state of a decompression below which Newton's method finds the equilibrium.
+/// Residual of the first state of a decompression below which Newton's method finds the equilibrium, and the number of
+/// evaluations in which L-BFGS approaches it. They cost less than the iterations that they save.
 constexpr double newton_below = 0.01;
+constexpr int approach = 500;
 
 /// Mean contact force F at a pressure p, from 3 p V_cell = Σ r·F. Assumes 4.5 contacts per particle, with r = 1.
 double mean_force_at(double pressure, double density) { return 3 * pressure / (4.5 * density); }
@@ -79,9 +81,7 @@ class StrainStep {
     return append(packing, minimise(packing, energy, options, stop_), energy);
   }
 
-  const JamStep& append(const Packing& packing, const MinimiseSummary& summary) {
-    return append(packing, summary, energy_);
-  }
+  const JamStep& append(const Packing& at, const MinimiseSummary& summary) { return append(at, summary, energy_); }
 
   const JamStep& append(const Packing& packing, const MinimiseSummary& summary, PackingEnergy& energy) {
     JamStep step;
@@ -119,14 +119,16 @@ class StrainStep {
     return step.energy_per_particle >= options_.compression.target_energy;
   }
 
-  /// A strain step after which the energy before relaxation is below the target. It is at most Compression::step.
-  double gentle_step() {
+  /// The next increase of φ. With target_before_relaxation, the energy before relaxation is then below the target.
+  double next_strain() {
+    const Compression& compression = options_.compression;
     const Packing& packing = progress_.packing;
-    double step = options_.compression.step;
-    const double least = step / 64;
-    while (step > least) {
+    if (!compression.target_before_relaxation)
+      return cohesive_energy_ ? compression.step : aimed_strain(compression, result_.path.back());
+    double step = compression.step;
+    while (step > compression.step / 64) {
       const Packing strained = strained_to(packing, packing.density() + step);
-      if (energy_.evaluate(strained).energy <= options_.compression.target_energy * packing.size()) break;
+      if (energy_.evaluate(strained).energy <= compression.target_energy * packing.size()) break;
       step /= 2;
     }
     return step;
@@ -166,7 +168,7 @@ class StrainStep {
     Packing& packing = progress_.packing;
     packing.cell = packing.cell.reduced();
     if (!result_.path.empty()) {
-      const double strain = options_.compression.target_before_relaxation ? gentle_step() : options_.compression.step;
+      const double strain = next_strain();
       if (packing.density() + strain > options_.compression.max_density) {
         result_.status = JamStatus::density_limit;
         return;
@@ -234,9 +236,12 @@ class StrainStep {
   /// The first state of a decompression. Close to an equilibrium, Newton's method converges in a few iterations. From
   /// the end of the compression of a large packing, it needs hundreds, and the method of multipliers far fewer.
   const JamStep& first_state(Packing& next) {
+    MinimiseOptions options = minimiser();
+    if (options.method != Method::multipliers || energy_.evaluate(next).residual < newton_below) return relax(next);
+    options.method = Method::lbfgs, options.residual = newton_below, options.max_evaluations = approach;
+    result_.work += minimise(next, energy_, options, stop_).work;
     const Evaluation value = energy_.evaluate(next);
-    if (options_.minimise.method != Method::multipliers || value.residual < newton_below || !(value.pressure > 0))
-      return relax(next);
+    if (!(value.pressure > 0)) return relax(next);
     const double force = mean_force_at(value.pressure, next.density());
     const double distance = 6 * value.energy / next.size() * next.density() * next.density() / value.pressure;
     return append(next, relax_to_equilibrium(next, force, distance, energy_, minimiser(), stop_));

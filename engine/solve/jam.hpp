@@ -14,6 +14,9 @@
 
 namespace isojam {
 
+/// Version of the protocol. It increases when the same options give other packings, not counting the last bits.
+inline constexpr int protocol_version = 2;
+
 /// Quantity that is prescribed for each state of a decompression.
 enum class Control { density, pressure };
 template <>
@@ -41,12 +44,11 @@ inline constexpr std::array enum_names<CohesionUntil>{EnumName{CohesionUntil::de
                                                       EnumName{CohesionUntil::end, "end"}};
 
 /// Options of compression, the first stage of the protocol. Compression consists of isotropic strain steps, each
-/// followed by a minimisation, until the target energy is reached. Energies are in units of Y·V_p.
+/// followed by a minimisation, until the target energy is reached. The last steps are shorter (aimed_strain()).
+/// Energies are in units of Y·V_p.
 struct Compression {
   double initial_density = 0.05;  ///< density φ of the random packing
-  /// Increase of φ in a strain step. The default is the longest of three steps that gave the same φ_J within the
-  /// confidence intervals (examples/02-strain-step), because compression then costs least.
-  double step = 0.02;
+  double step = 0.04;             ///< increase of φ in a strain step, see examples/02-strain-step
   double target_energy = 3.2e-5;  ///< target energy per particle E/N; the value of the paper
   /// The paper's target energy can be interpreted in two ways:
   /// - false: compression ends at the first state whose E/N after relaxation is at least target_energy. If the
@@ -60,9 +62,8 @@ struct Compression {
   double max_density = 0.93;
   /// Largest number of evaluations for a state. L-BFGS relaxes a state until the residual is at most 1e-3, or until E/N
   /// is below 1e-14, the criterion minimise.energy_change is satisfied, or this number of evaluations is reached. More
-  /// evaluations do not change φ_J significantly, except for tetrahedra, for which 2000 are recommended
-  /// (examples/02-strain-step).
-  int evaluations = 500;
+  /// evaluations do not change φ_J significantly, except for tetrahedra, which need more (examples/02-strain-step).
+  int evaluations = 200;
 };
 
 /// Options of decompression, the second stage: steps to lower densities, or to lower pressures, towards φ_J.
@@ -201,6 +202,10 @@ struct JamResult {
   PairCounts counts;                  ///< numbers of pairs that were processed in all evaluations
   MinimiseWork work;                  ///< numbers of operations of all minimisations
 };
+
+/// The increase of φ after the state `last` of a compression: Compression::step, or less where this would exceed the
+/// target energy by E ∝ (φ − φ_J)⁶.
+double aimed_strain(const Compression& compression, const JamStep& last);
 
 /// The data of `states` for fit_jamming_point().
 std::vector<EnergyPoint> energy_points(const JamResult& result);

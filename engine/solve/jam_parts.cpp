@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <utility>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "engine/packing/energy.hpp"
 #include "engine/solve/jam.hpp"
+#include "engine/solve/rearrangement.hpp"
 
 namespace isojam {
 
@@ -15,6 +18,13 @@ CellControl control_at_density(const JamOptions& options) {
 
 CellControl control_at_pressure(const JamOptions& options, double pressure) {
   return {options.cell == CellShape::free ? CellFreedom::free : CellFreedom::isotropic, pressure};
+}
+
+double aimed_strain(const Compression& compression, const JamStep& last) {
+  if (!(last.energy_per_particle > 0)) return compression.step;
+  const double growth = nearest::pow(compression.target_energy / last.energy_per_particle, 1.0 / 6);
+  // Slightly farther, because the last state is not quite relaxed.
+  return std::clamp(1.2 * distance_to_jamming(last) * (growth - 1), compression.step / 4, compression.step);
 }
 
 std::vector<EnergyPoint> energy_points(const JamResult& result) {

@@ -11,6 +11,7 @@ namespace isojam {
 namespace {
 
 constexpr double neighbours_in_crystal = 26, greatest_density = 2;
+constexpr double step_of_tetrahedra = 0.02;
 constexpr int evaluations_of_tetrahedra = 2000;
 
 /// The parameters that one solid may have.
@@ -72,7 +73,7 @@ void read_by_solid(const JsonPlace& place, Manifest& manifest) {
 double densest_compression(const JamOptions& options) {
   const auto& compression = options.compression;
   const double overlapping = std::sqrt(2 * neighbours_in_crystal * compression.target_energy);
-  const double limit = overlapping < 0.5 ? 1 / (1 - overlapping) + compression.step : greatest_density;
+  const double limit = overlapping < 0.5 ? 1 / (1 - overlapping) + compression.step / 2 : greatest_density;
   return std::clamp(std::ceil(limit * 100) / 100, compression.max_density, greatest_density);
 }
 
@@ -93,12 +94,15 @@ Custom by_solid_field(Manifest& manifest) {
 
 void add_defaults_of_solids(const JsonPlace& root, Manifest& manifest) {
   manifest.free_cube_limit = !free_solids(root, manifest, SolidKind::cube, "max_density").empty();
-  constexpr auto key = "compression_evaluations";
-  // φ_J of tetrahedra depends on how completely the states of the compression are relaxed (examples/02-strain-step).
-  for (const auto& name : free_solids(root, manifest, SolidKind::tetrahedron, key)) {
-    auto& own = manifest.by_solid[name];
-    own.parameters[key] = own.options.compression.evaluations = evaluations_of_tetrahedra;
-  }
+  // φ_J of tetrahedra depends on their compression (examples/02-strain-step).
+  const auto give = [&](const std::string& key, auto Compression::*member, auto value) {
+    for (const auto& name : free_solids(root, manifest, SolidKind::tetrahedron, key)) {
+      auto& own = manifest.by_solid[name];
+      own.parameters[key] = own.options.compression.*member = value;
+    }
+  };
+  give("compression_step", &Compression::step, step_of_tetrahedra);
+  give("compression_evaluations", &Compression::evaluations, evaluations_of_tetrahedra);
 }
 
 std::vector<OptionSet> option_sets(const Manifest& manifest) {

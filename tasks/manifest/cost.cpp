@@ -8,17 +8,17 @@
 namespace isojam {
 namespace {
 
-/// CPU seconds of a replicate with N = 100 and the default step lengths. `compression` is for at most 500 evaluations
-/// for a state, `decompression` for Δφ = 0.01. The latter is proportional to Δφ^−power. Fitted to studies of the
-/// examples, see tests/tasks/manifest/cost_test.cpp.
+/// CPU seconds of a replicate with N = 100, compression steps of 0.02 and the default decompression. `compression` is
+/// for at most 500 evaluations for a state, `decompression` for Δφ = 0.01. The latter is proportional to Δφ^−power.
+/// Fitted to studies of the examples, see tests/tasks/manifest/cost_test.cpp.
 struct JamLaw {
   double compression, decompression, power;
 };
-constexpr std::array<JamLaw, all_solids.size()> jam_laws{{{3.3, 1.5, 0.54},     // tetrahedron
-                                                          {1.8, 1.0, 0.6},      // cube
-                                                          {1.3, 0.63, 0.57},    // octahedron
-                                                          {1.25, 0.58, 0.69},   // dodecahedron
-                                                          {1.1, 0.49, 0.66}}};  // icosahedron
+constexpr std::array<JamLaw, all_solids.size()> jam_laws{{{2.8, 1.5, 0.54},      // tetrahedron
+                                                          {1.55, 1.0, 0.6},      // cube
+                                                          {1.1, 0.63, 0.57},     // octahedron
+                                                          {1.05, 0.58, 0.69},    // dodecahedron
+                                                          {0.95, 0.49, 0.66}}};  // icosahedron
 /// The values of the parameters for which these times hold.
 constexpr double law_distance = 0.01, law_fraction = 0.35, law_step = 0.02, law_evaluations = 500, law_particles = 100;
 /// Powers of N, and of the number of evaluations for a state of the compression.
@@ -71,8 +71,8 @@ constexpr std::array measure_laws{
     MeasureLaw{Measure::contacts, 0.01, 1},     MeasureLaw{Measure::order, 0.0027, 1.75},
     MeasureLaw{Measure::clusters, 0.0065, 1.1}, MeasureLaw{Measure::percolation, 0.015, 1.1},
     MeasureLaw{Measure::modes, 0.046, 1.8},     MeasureLaw{Measure::moduli, 0.1, 2.1},
-    MeasureLaw{Measure::strict, 0.1, 2.1},      MeasureLaw{Measure::shear, 0.1, decompression_size_power},
-    MeasureLaw{Measure::rigidity, 0.025, 2.5},  MeasureLaw{Measure::exponents, 0.3, 2.0},
+    MeasureLaw{Measure::strict, 0.1, 2.1},      MeasureLaw{Measure::shear, 0.06, decompression_size_power},
+    MeasureLaw{Measure::rigidity, 0.025, 2.5},  MeasureLaw{Measure::exponents, 0.03, 2.0},
     MeasureLaw{Measure::backbone, 0.06, 3},     MeasureLaw{Measure::difference_modes, 0.68, 2.3},
     MeasureLaw{Measure::prestress, 0.28, 2.4},  MeasureLaw{Measure::gaps, 0.065, 1.1},
 };

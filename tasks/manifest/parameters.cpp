@@ -15,7 +15,10 @@ constexpr std::array methods{Method::multipliers, Method::newton, Method::lbfgs}
 
 void compression_fields(Fields& field, Compression& c) {
   field("initial_density", c.initial_density, "Density φ of the random initial configuration.").range(positive_to(1));
-  field("compression_step", c.step, "Increase of the density φ in one compression step.").range(positive_to(1));
+  field("compression_step", c.step,
+        "Increase of the density φ in one compression step. The last steps are shorter, so that they end near "
+        "`target_energy`. If no value is given, tetrahedra have 0.02.")
+      .range(positive_to(1));
   field("target_energy", c.target_energy, "Energy per particle E/N (Y·V_p) at which compression ends.")
       .range(positive_to(1));
   field("target_before_relaxation", c.target_before_relaxation,

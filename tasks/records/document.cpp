@@ -93,7 +93,8 @@ void describe_spec(Fields& field) {
 
 Provenance provenance_of(const ReplicateSpec& spec) {
   Provenance provenance{
-      std::string(version()), std::string(git_hash()), std::string(compiler()), spec_digest(spec), spec.seed, {}, {}};
+      std::string(version()), std::string(git_hash()), std::string(compiler()), spec_digest(spec), {}, {}, {}, {}};
+  provenance.protocol = protocol_version, provenance.seed = spec.seed;
   if (spec.start) provenance.start = spec.start->files[static_cast<std::size_t>(spec.replicate)].path;
   return provenance;
 }
@@ -123,6 +124,9 @@ void describe(Fields& field, Provenance& provenance) {
   field("spec_digest", provenance.spec_digest,
         "Digest of everything that determines the replicate: `spec` without its measures, and the seed. Two "
         "replicates with the same digest have the same states, whatever else their manifests request.");
+  field("protocol", provenance.protocol,
+        "Version of the protocol, with which the same specification gives other packings; absent in records of version "
+        "1.");
   field("seed", provenance.seed, "Seed of the manifest.");
   field("start", provenance.start,
         "Path of the file with the initial configuration; absent if the initial configuration was random.");

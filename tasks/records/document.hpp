@@ -27,6 +27,7 @@ void describe(Fields& field, Addition& addition);
 /// The build, the specification and the seed that produced a record or a checkpoint.
 struct Provenance {
   std::string version, git, compiler, spec_digest;
+  std::optional<int> protocol;  ///< protocol_version; nullopt in records of version 1
   std::uint64_t seed = 0;
   std::optional<std::string> start;  ///< file of the initial configuration
   std::optional<std::vector<Addition>> added;

@@ -50,8 +50,8 @@ def claims():
     # The overlaps alone take the time of the kernel, here in ns.
     kernel = "overlap/in_packings/{}"
     yield claim("costs", "evaluate/1_thread/N=1000#seconds_per_contact", kernel.format("octahedron"), 2.5, 1e-9)
-    for case, limit in (("octahedron_N=100", 4), ("octahedron_N=400", 6), ("dodecahedron_N=100", 4),
-                        ("icosahedron_N=100", 4), ("tetrahedron_N=100", 6)):
+    for case, limit in (("octahedron_N=100", 7), ("octahedron_N=400", 9), ("dodecahedron_N=100", 6),
+                        ("icosahedron_N=100", 6), ("tetrahedron_N=100", 7)):
         yield claim("costs", f"replicate/jam/{case}#seconds_per_overlap", kernel.format(case.split("_")[0]), limit, 1e-9)
     for solid in (solid for solid in SOLIDS if solid != "cube"):
         yield claim("faster", f"packing/isojam/{solid}", f"packing/yade/{solid}", 300)

@@ -179,13 +179,13 @@ class Gathered(unittest.TestCase):
 
 
 class Anew(unittest.TestCase):
-    # The data may be those of an earlier version. After a rearrangement of the decompression, the present version can
-    # reach other states. A single packing then has another φ_J, within the spread of φ_J between packings.
-    BY_REARRANGEMENTS = 0.01
+    # The data are those of an earlier version of the protocol, which makes other packings from the same initial
+    # configuration. Their φ_J differ as those of two packings do.
+    SPREAD = 0.01
 
     def test_replicates_of_the_studies(self):
         committed = json.loads(RIGIDITY_DATA.read_text(encoding="utf-8"))
-        for study, shard in (("n50", "38/48"), ("n50", "10/48")):
+        for study, shard in (("n50", "10/48"), ("n50", "26/48")):
             with tempfile.TemporaryDirectory() as here:
                 manifest = json.loads((EXAMPLES / f"rigidity/{study}.json").read_text(encoding="utf-8"))
                 manifest.pop("$schema")
@@ -201,7 +201,7 @@ class Anew(unittest.TestCase):
                       if [r["solid"], r["particles"], r["replicate"]] == place]
             self.assertEqual(len(before), 1, place)
             print(place, "φ_J", record["phi_j"]["phi_j"], "committed", before[0]["phi_j"])
-            self.assertLess(abs(record["phi_j"]["phi_j"] - before[0]["phi_j"]), self.BY_REARRANGEMENTS)
+            self.assertLess(abs(record["phi_j"]["phi_j"] - before[0]["phi_j"]), self.SPREAD)
 
 
 if __name__ == "__main__":

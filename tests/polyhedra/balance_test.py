@@ -43,7 +43,8 @@ class Balance(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.directory = pathlib.Path(cls.folder.name, "results")
-        cls.manifest = study.write(cls.folder.name, study.manifest("balance", definitions(), 32, 1e-9, ()))
+        manifest = study.manifest("balance", definitions(), 32, 1e-9, ()) | {"seed": 8}
+        cls.manifest = study.write(cls.folder.name, manifest)
 
     @classmethod
     def tearDownClass(cls):

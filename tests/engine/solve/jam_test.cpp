@@ -13,20 +13,25 @@ INSTANTIATE_TEST_SUITE_P(Systems, Jam,
                          [](const auto& test) { return std::string(to_string(test.param.kind)); });
 
 void expect_path(const JamResult& result, const JamOptions& options) {
-  bool expanding = false;
-  double before = 0;
+  bool expanding = false, aimed = false;
+  const JamStep* before = nullptr;
   for (const JamStep& step : result.path) {
     if (step.stage == JamStage::compression) {
       EXPECT_FALSE(expanding) << "compression after decompression";
-      EXPECT_GT(step.density, before);
+      if (before) {
+        const double strain = aimed_strain(options.compression, *before);
+        EXPECT_NEAR(step.density, before->density + strain, 1e-12);
+        aimed |= strain < options.compression.step;
+      }
     } else if (!expanding) {
       expanding = true;
-      EXPECT_EQ(step.density, before) << "the state at the target is minimised once more, fully";
+      EXPECT_EQ(step.density, before->density) << "the state at the target is minimised once more, fully";
     }
-    before = step.density;
+    before = &step;
     EXPECT_NE(step.summary.reason, StopReason::not_called);
   }
   ASSERT_TRUE(expanding);
+  EXPECT_TRUE(aimed) << "no strain step is shorter";
   const auto last_up = std::find_if(result.path.begin(), result.path.end(),
                                     [](const JamStep& step) { return step.stage == JamStage::decompression; }) -
                        1;
@@ -192,6 +197,23 @@ TEST(JamTest, TheRuleOnTheEnergyAcceptsUnbalancedStates) {
   for (const int k : balanced.state_steps)
     EXPECT_TRUE(is_equilibrium(balanced.path[static_cast<std::size_t>(k)].summary));
   EXPECT_LT(balanced.states.size(), by_energy.states.size()) << "1e-9 is more than conjugate gradients reach here";
+}
+
+TEST(JamTest, TheLastStrainStepAimsAtTheTargetEnergy) {
+  const Compression compression;
+  const auto state_at = [](double distance) {
+    JamStep state;  // E/N = (Δφ)⁶, and N p/φ² = dE/dφ
+    state.density = 0.7 + distance;
+    state.energy_per_particle = std::pow(distance, 6);
+    state.pressure = 6 * std::pow(distance, 5) * state.density * state.density;
+    return state;
+  };
+  const double target = std::pow(compression.target_energy, 1.0 / 6), step = compression.step;
+  EXPECT_EQ(aimed_strain(compression, JamStep{}), step) << "a packing without contacts";
+  for (double to_target = 3 * step; to_target > -2 * step; to_target -= step / 16) {
+    const double strain = aimed_strain(compression, state_at(target - to_target));
+    EXPECT_NEAR(strain, std::clamp(1.2 * to_target, step / 4, step), 1e-12) << to_target / step;
+  }
 }
 
 TEST(JamTest, ATargetBeforeRelaxationEndsNearerToJamming) {

@@ -103,7 +103,7 @@ TEST_P(Strict, StatesOfAVariableCellAreStrictlyJammed) {
 }
 
 TEST_P(Strict, ARelaxedCellIsStrictlyJammedAndRelaxesNoFurther) {
-  const JamResult& result = jammed(GetParam(), count, .02);
+  const JamResult& result = jammed(GetParam(), count, .02, 2);
   const JamStep& step = result.path[static_cast<std::size_t>(result.state_steps.back())];
   const FreedCell freed = free_cell(result.states.back(), distance_to_jamming(step));
   std::printf("strain %.2e, phi %.5f from %.5f, deviator %.1e from %.1e, %d descents\n", freed.strain, freed.density,
