@@ -11,8 +11,8 @@
 namespace isojam {
 namespace {
 
-/// Largest number of steps in a decompression that may fail or end a solution branch.
-constexpr int max_halvings = 4;
+/// Largest number of steps of a decompression that may fail or end a solution branch, far from jamming and near it.
+constexpr int max_halvings = 4, max_halvings_near = 7;
 
 /// Smallest values of MinimiseOptions::residual and MinimiseOptions::unjammed_energy in compression.
 constexpr double compression_residual = 1e-3, compression_unjammed_energy = 1e-14;
@@ -304,7 +304,7 @@ class StrainStep {
   /// equilibrium.
   void lose_branch(Packing packing) {
     result_.path.back().lost = true;
-    if (++progress_.halvings > max_halvings) return end_decompression(JamStatus::goal_not_reached);
+    if (exhausted()) return end_decompression(JamStatus::goal_not_reached);
     progress_.packing = std::move(packing);
     progress_.lost = result_.state_steps.back();
     progress_.step_fraction /= 2;  // smaller steps from here on, because the same may happen again
@@ -321,10 +321,8 @@ class StrainStep {
     const JamStep& step = append(next, relax_to_equilibrium(next, force, distance, energy_, minimiser(), stop_));
     if (must_end(step)) return;
     progress_.packing = next;
-    if (!is_state(step.summary)) {
-      if (step.summary.reason != StopReason::unjammed) failed(false);
-      return;
-    }
+    if (step.summary.reason == StopReason::unjammed) return;
+    if (!is_state(step.summary)) return failed(false);
     if (distance_to_jamming(step) < options_.decompression.final_distance / (1 - options_.decompression.step_fraction))
       return;
     progress_.lost = -1;
@@ -338,10 +336,12 @@ class StrainStep {
     return is_equilibrium(summary) || summary.reason == StopReason::energy_change;
   }
 
-  /// Handles a step of decompression that led to no state. The next step is half as long, whichever limit determined
-  /// this step. Half the fraction alone might give the same step again, which would fail again with the same bits.
+  /// Counts a step that failed, or ended a branch. True if there were too many.
+  bool exhausted() { return ++progress_.halvings > (distance() > near_jamming ? max_halvings : max_halvings_near); }
+
+  /// After a failed step, the next one is half as long, whichever limit determined it; the same step would fail again.
   void failed(bool first) {
-    if (first || ++progress_.halvings > max_halvings) return end_decompression(JamStatus::goal_not_reached);
+    if (first || exhausted()) return end_decompression(JamStatus::goal_not_reached);
     // As in decompression_step(), a bound that is not positive does not count.
     if (const double bound = step_bound(); bound > 0)
       progress_.step_fraction = std::min(progress_.step_fraction, bound / distance());

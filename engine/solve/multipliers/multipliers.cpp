@@ -94,7 +94,9 @@ constexpr double unjammed_energy = 1e-6;
 constexpr int most_nonrigid_states = 10;
 
 /// Limits far above the need of all states except those at the end of their solution branch, which slide a long way.
-constexpr double most_steps = 600, most_envelopes = 3000;
+/// A step shorter than `short_step` · (φ − φ_J) may need `patience` times as much: it meets the end of the branch
+/// because the branch ends there, and not because the step is too long, so that a shorter one would meet it as well.
+constexpr double most_steps = 600, most_envelopes = 3000, short_step = 0.05, patience = 10;
 
 /// A larger packing has more rearrangements in a strain step, and each of them limits the steps of the whole packing.
 /// The limits of the numbers of steps and renewals are therefore proportional to N above this N.
@@ -125,6 +127,7 @@ class Multipliers {
 
   /// Follows the equilibrium to another density.
   MinimiseSummary follow(double density) {
+    if (packing_.density() - density < short_step * distance_) patience_ = patience;
     const Packing strained = strained_to(packing_, density);
     const double stretch = strained.cell.side() / packing_.cell.side() - 1;
     follow_tangent(strained, stretch * Eigen::Matrix3d::Identity(), distance_ - (packing_.density() - density));
@@ -205,10 +208,10 @@ class Multipliers {
     }
     if (stop_.stop_requested()) return StopReason::interrupted;
     if (descent_.failed()) return StopReason::line_search_failed;
-    const double most =
-        std::min(most_envelopes * size(), static_cast<double>(options_.max_evaluations - summary_.evaluations));
+    const double most = std::min(patience_ * most_envelopes * size(),
+                                 static_cast<double>(options_.max_evaluations - summary_.evaluations));
     if (static_cast<double>(summary_.work.envelopes) >= most ||
-        static_cast<double>(summary_.work.hessians) >= most_steps * size())
+        static_cast<double>(summary_.work.hessians) >= patience_ * most_steps * size())
       return StopReason::budget;
     return std::nullopt;
   }
@@ -327,6 +330,7 @@ class Multipliers {
   DefiniteSolver solver_{complete_};
   Packing& packing_;
   double distance_;
+  double patience_ = 1;  ///< factor of the limits
   PackingEnergy& energy_;
   const MinimiseOptions& options_;
   std::stop_token stop_;
