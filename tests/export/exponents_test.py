@@ -1,6 +1,6 @@
 """Recomputes the measure `exponents` from exported contacts, with numpy: x, the classes, C, m and S.
 
-usage: exponents_test.py ISOJAM FOLDER [REPLICATES DISTANCE SOLID...]
+usage: exponents_test.py ISOJAM FOLDER [SEED REPLICATES DISTANCE SOLID...]
 
 Packings are decompressed in steps of 4 %, the length of the measure's first step. If this step was used, the state after
 a state of the path is the second state of the measure.
@@ -19,8 +19,10 @@ import numpy
 import results
 
 ISOJAM, FOLDER = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
-REPLICATES, DISTANCE, *SOLIDS = sys.argv[3:] or ["1", "0.004", "octahedron", "dodecahedron"]
+SEED, REPLICATES, DISTANCE, *SOLIDS = sys.argv[3:] or ["6", "2", "0.002", "tetrahedron", "octahedron", "icosahedron", "dodecahedron"]
 N, STEP, PARALLEL = 64, 0.04, 1e-9
+WEAKEST = 1e-3  # force, in mean forces, below which residuals of up to 1e-6 change x by more than its tolerance
+NEAR = 3  # singular values within this factor of their tolerance count either way: they depend on the axes of the tilts
 
 
 def isojam(*arguments):
@@ -28,7 +30,7 @@ def isojam(*arguments):
 
 
 def run(name, manifest):
-    (FOLDER / f"{name}.json").write_text(json.dumps({"name": name, "seed": 5, "replicates": int(REPLICATES), **manifest}))
+    (FOLDER / f"{name}.json").write_text(json.dumps({"name": name, "seed": int(SEED), "replicates": int(REPLICATES), **manifest}))
     isojam("run", f"{name}.json", "-o", name, "--quiet")
     return FOLDER / name
 
@@ -102,7 +104,7 @@ class Exponents(unittest.TestCase):
     def test_follow_from_exported_contacts(self):
         shutil.rmtree(FOLDER, ignore_errors=True)
         FOLDER.mkdir(parents=True)
-        checked = stepped = 0
+        checked = stepped = self.exact = self.states = 0
         for name in SOLIDS:
             far = run(f"{name}-far", {"sweep": {"solid": [name], "particles": [N]}, "measure": [],
                                       "protocol": {"final_distance": 1.3 * float(DISTANCE), "fit_window": 0.02}})
@@ -118,13 +120,16 @@ class Exponents(unittest.TestCase):
                 own = [row for row in table if row["replicate"] == replicate]
                 stepped += self.check(near, replicate, own, Solid(shape))
                 checked += 1
-        print(f"{checked} packings of {N} particles, {stepped} steps of {STEP} recomputed")
-        self.assertGreater(stepped, 0)
+        print(f"{checked} packings of {N} particles, {self.states} states, {self.exact} of them with no singular value near its "
+              f"tolerance, {stepped} steps of {STEP} recomputed")
+        self.assertGreater(stepped, checked)
+        self.assertGreater(self.exact, 0.8 * self.states)
 
     def check(self, directory, replicate, table, solid):
         states = [[row for row in table if int(row["state"]) == k] for k in range(int(table[-1]["state"]) + 1)]
         records, packings, stepped = results.record(directory, replicate)["states"], results.path(directory, replicate), 0
         for k, (rows, state) in enumerate(zip(states, records)):
+            self.states += 1
             record = state["exponents"]
             x = [float(row["x"]) if row["x"] else None for row in rows]
             if record["step"] == -STEP and k + 1 < len(states):
@@ -135,10 +140,12 @@ class Exponents(unittest.TestCase):
             constraints = sum({"lower_order": 1, "edge_face": 2, "face_face": 3}[kind] for kind in kinds)
             self.assertAlmostEqual(2 * constraints / N, record["C"], 9)
             values, lines = singular_values(rows, kinds, packings[k], solid)
-            found = int((values > record["rank"]["tolerance"]).sum())
+            least, most = (int((values > factor * record["rank"]["tolerance"]).sum()) for factor in (NEAR, 1 / NEAR))
+            rank = lines - record["rank"]["self_stress"]
             self.assertEqual(lines, constraints)
-            self.assertAlmostEqual((6 * N - 3 - found) / N, record["missing"], 9, f"{replicate} {k}")
-            self.assertEqual(lines - found, record["rank"]["self_stress"], f"{replicate} {k}")
+            self.assertTrue(least <= rank <= most, f"{replicate} {k}: {least} … {most}, not {rank}")
+            self.assertAlmostEqual((6 * N - 3 - rank) / N, record["missing"], 9, f"{replicate} {k}")
+            self.exact += least == most
         return stepped
 
     def check_x(self, rows, after, x):
@@ -152,6 +159,9 @@ class Exponents(unittest.TestCase):
             return 0  # a contact changed its periodic image, because the cell was reduced
         mean = [numpy.mean([volume * area for volume, area in contacts.values()]) for contacts in (before, after)]
         for pair, expected in zip(before, x):
+            volume, area = before[pair]
+            if volume * area < WEAKEST * mean[0]:
+                continue
             self.assertAlmostEqual(exponent(before[pair], after[pair], numpy.log(mean[1] / mean[0])), expected,
                                    delta=1e-3 * max(1, abs(expected)))
         return 1
