@@ -84,8 +84,9 @@ run: build
 
 # The studies of examples/paper, examples/rigidity and examples/percolation; then the page, its tables and its figures
 # from their results. An interrupted call is resumed. A replicate that failed (exit 1) is counted on the page.
-PAPER = n100 n400 n400-tetrahedra n4000 unstable emergence protocol
-RIGIDITY = n50 n64 n200 n800 solids constraints constraints-tetrahedra
+PAPER = n100 n400 n400-tetrahedra n4000 unstable emergence
+CONSTRAINTS = constraints constraints-tetrahedra line line-dense line-cohesion line-cycles
+RIGIDITY = n50 n64 n200 n800 solids
 PERCOLATION = kept100 removed100 tetrahedra kept200 removed200 cycles range cubes kept400 tetrahedra400
 # Measures that an interrupted call left come first, because `run` would compute the whole replicate again.
 studies = @for study in $(1); do \
@@ -98,22 +99,20 @@ comma := ,
 GATHER = $(PYTHON) -B examples/page/gather.py $(BUILD)/isojam results
 page = @$(PYTHON) -B examples/$(1)/figures.py results/$(1) $(2) && \
 	  $(PYTHON) -B examples/$(1)/page.py --data $(2) -o results/$(1)
-# Both pages need the studies of both, and that of the paper two of percolation.
+# Both pages need the studies of both.
 paper: build
 	$(call install,python3 python3-matplotlib python3-scipy)
 	$(call studies,$(PAPER),paper)
-	$(call studies,$(RIGIDITY),rigidity)
-	$(call studies,removed100 cycles,percolation)
+	$(call studies,$(RIGIDITY) $(CONSTRAINTS),rigidity)
 	$(call nearest,paper-400,backbone)
 	$(call nearest,paper-400-tetrahedra,backbone$(comma)rigidity)
 	$(call nearest,paper-4000,rigidity)
 	$(call nearest,paper-unstable,difference_modes)
 	$(call nearest,rigidity-800,modes$(comma)moduli$(comma)rigidity)
 	@$(GATHER) results/paper/records.json $(addprefix paper-,$(PAPER:n%=%))
-	@$(GATHER) results/rigidity/records.json $(addprefix rigidity-,$(patsubst n%,%,$(filter-out constraints%,$(RIGIDITY))))
-	@$(GATHER) results/rigidity/constraints.json $(addprefix rigidity-,$(filter constraints%,$(RIGIDITY)))
-	@$(PYTHON) -B examples/percolation/gather.py $(BUILD)/isojam results results/paper/percolation.json percolation-removed100 percolation-cycles
-	$(call page,paper,$(addprefix results/,paper/records.json paper/percolation.json rigidity/constraints.json))
+	@$(GATHER) results/rigidity/records.json $(addprefix rigidity-,$(RIGIDITY:n%=%))
+	@$(GATHER) results/rigidity/constraints.json $(addprefix rigidity-,$(CONSTRAINTS))
+	$(call page,paper,$(addprefix results/,paper/records.json rigidity/constraints.json))
 	$(call page,rigidity,$(addprefix results/,paper/records.json rigidity/records.json rigidity/constraints.json))
 	@$(PYTHON) -B examples/page/verdict.py results/rigidity/constraints.json
 

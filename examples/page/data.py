@@ -12,19 +12,13 @@ from scaling import at, binned, jamming_density, slopes
 
 SOLIDS = ("tetrahedron", "octahedron", "icosahedron", "dodecahedron")
 PLURALS = {solid: solid.replace("hedron", "hedra") for solid in SOLIDS}
-PROTOCOL = "paper-protocol"  # the study whose replicates have other compression protocols
 # Studies of one question each. Means over Platonic solids do not use them.
 NEGATIVE, EMERGENCE, SOLIDS_64, LARGE = "paper-unstable", "paper-emergence", "rigidity-solids", "paper-4000"
 CONSTRAINTS = ("rigidity-constraints", "rigidity-constraints-tetrahedra")
-REMOVED, CYCLES = "percolation-removed100", "percolation-cycles"
-APART = (PROTOCOL, NEGATIVE, EMERGENCE, SOLIDS_64, LARGE, *CONSTRAINTS)  # and those of percolation
+# Packings of 100 particles by other preparations.
+LINE = ("rigidity-line", "rigidity-line-dense", "rigidity-line-cohesion", "rigidity-line-cycles")
+APART = (NEGATIVE, EMERGENCE, SOLIDS_64, LARGE, *CONSTRAINTS, *LINE)
 CHOICES = (1, 2, 4)  # factors of the fit window of φ_J, whose effect is the systematic error of exponents
-
-
-def base_of(solid):
-    """Compression protocol of the main studies, which is the default of isojam."""
-    return {"target_before_relaxation": False, "compression_step": 0.02,
-            "compression_evaluations": 2000 if solid == "tetrahedron" else 500}
 
 
 def each(states, names, function):
@@ -59,12 +53,6 @@ def derived(states, particles):
     made["participating"] = each(states, ["p_h"], lambda share: share * particles)
     made["wave"] = each(states, ["omega_l", "G", "phi"], lambda w, g, phi: w / longest_wave(g, phi, particles)
                         if g > 0 else None)
-    made["backbone_m"] = each(states, ["backbone_missing", "backbone_removed"],
-                              lambda missing, off: missing / (particles - off) if off < particles else None)
-    for name, column in (("backbone_C", "backbone_constraints"), ("backbone_redundant", "backbone_self_stress")):
-        factor = 2 if name == "backbone_C" else 1
-        made[name] = each(states, [column, "backbone_removed"],
-                          lambda rows, off, f=factor: f * rows / (particles - off) if off < particles else None)
     return {name: values for name, values in made.items() if values is not None}
 
 
@@ -85,7 +73,7 @@ class Data:
                     r["states"] |= derived(r["states"], r["particles"])
 
     def main(self):
-        return [study for name, study in self.studies.items() if name not in APART and "percolation" not in name]
+        return [study for name, study in self.studies.items() if name not in APART]
 
     def kept_of(self, name, solid):
         """Replicates of one study that means use."""
@@ -183,20 +171,6 @@ class Data:
         found = [(int(name.split()[1]), one) for study in self.main() for name, one in study.get("clusters", {}).items()
                  if name.split()[0] == solid]
         return max(found, key=lambda pair: pair[0], default=None)
-
-    def protocol_shifts(self, solid):
-        """Paired differences of φ_J: other compression protocols minus the one of the main studies."""
-        def place(r):
-            return r["solid"], r["replicate"]
-
-        usable = self.kept_of(PROTOCOL, solid)
-        ours = base_of(solid)
-        base = {place(r): r["phi_j"] for r in usable if r["setting"] == ours}
-        pairs = {}
-        for r in usable:
-            if r["setting"] != ours and place(r) in base:
-                pairs.setdefault(tuple(r["setting"].values()), []).append(r["phi_j"] - base[place(r)])
-        return {setting: estimate_of(values) for setting, values in sorted(pairs.items()) if len(values) >= 3}
 
     def minima(self, solid, particles):
         """States nearest jamming that are minima with three zero modes: by all particles, by the backbone of the others,

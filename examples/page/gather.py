@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy
 
-from data import CONSTRAINTS, EMERGENCE, LARGE, NEGATIVE, SOLIDS_64
+from data import CONSTRAINTS, EMERGENCE, LARGE, LINE, NEGATIVE, SOLIDS_64
 from records import bin_of, cells_of, found, nearest_of, records_of, write
 
 # Column of a state: where it is in the record.
@@ -36,8 +36,6 @@ COLUMNS = {
     **{f"{key}_{name}": f"rigidity/scaled_cutoffs/{i}/{key}" for i, name in enumerate(("half", "double"))
        for key in ("floppy", "self_stress", "constraints")},
     "backbone_removed": "backbone/removed", "backbone_zero": "backbone/zero", "backbone_negative": "backbone/negative",
-    "backbone_missing": "backbone/classes/missing", "backbone_constraints": "backbone/classes/constraints",
-    "backbone_rank": "backbone/classes/rank",
     **{f"unstable_{name}": f"difference_modes/{name}/share" for name in ("exact", "h4", "h6", "h8")},
     "held_by_second": "prestress/modes/held_by_second", "C_s": "prestress/C_s",
     **{f"prestress_{t}": f"prestress/modes/prestress_by_threshold/{i}/modes" for i, t in ((1, 3), (2, 10), (3, 30))},
@@ -49,14 +47,11 @@ COLUMNS = {
     **{f"{key}_{name}": f"prestress/by_class/{i}/{full}" for i, name in enumerate(("ff", "ef", "l"))
        for key, full in (("contacts", "contacts"), ("tilts", "stiff_tilts"))}}
 FITS = {"cut_ff": "contacts/face_face_fit", "cut_ef": "contacts/edge_face_fit"}
-# Parameters of the protocol that a study may vary.
-VARIED = ("target_before_relaxation", "compression_step", "compression_evaluations")
 HISTOGRAMS_AT = (0.0025, 0.001)  # Δφ of histograms beside those of the tables
 SPECTRUM_AT = 0.01  # Δφ of the spectra, the same for all solids
-BALANCED = 1e-3  # largest residual of a backbone whose ranks are used: the removed particles carry no force
 STRUCTURE_FROM, SHELLS = 400, 40  # smallest N, and largest n² of the wave vectors 2π n/L, of structure factors
 # Studies of which pages use only the states nearest jamming.
-NEAREST_ONLY = (LARGE, NEGATIVE, EMERGENCE, SOLIDS_64, *CONSTRAINTS)
+NEAREST_ONLY = (LARGE, NEGATIVE, EMERGENCE, SOLIDS_64, *CONSTRAINTS, *LINE)
 EMERGENCE_AT = (0.32, 0.24, 0.16, 0.12, 0.08, 0.04)  # Δφ
 NEAR = 1.25  # factor between two values of Δφ that count as the same
 
@@ -69,30 +64,32 @@ def columns_of(states, particles):
                          for s in states]
     for name in ("half", "double"):
         columns[f"C_{name}"] = [None if n is None else 2 * n / particles for n in columns.pop(f"constraints_{name}")]
-    for i, state in enumerate(states):
-        if (found(state, "backbone/residual") or 0) > BALANCED:
-            for name in ("missing", "constraints", "rank"):
-                columns[f"backbone_{name}"][i] = None
-    columns["backbone_self_stress"] = [None if None in pair else pair[0] - pair[1]
-                                       for pair in zip(columns["backbone_constraints"], columns["backbone_rank"])]
     modes = [found(state, "modes/near_rattlers") for state in states]
     columns["near_rattlers"] = [None if some is None else len(some) for some in modes]
     return {name: values for name, values in columns.items() if any(value is not None for value in values)}
 
 
-def replicate_of(record, varied, nearest_only):
-    """Row of a replicate. If the study varies parameters of the protocol, it has these instead of the states."""
+def preparation_of(protocol):
+    """What distinguishes the protocol from that of the other studies of LINE. Cohesion of 1e-12 is too weak to affect packings;
+    with it, compression ends in the same way as with cohesion."""
+    if protocol.get("cohesion", {}).get("strength", 0) > 1e-12:
+        return "removed"
+    return "cycles" if protocol.get("cycles") else f"{protocol['target_energy']:g}"
+
+
+def replicate_of(record, study):
+    """Row of a replicate."""
     spec = record["spec"]
     made = {"solid": spec["solid"], "particles": spec["particles"], "replicate": spec["replicate"],
             "status": record["status"], "flags": record.get("flags") or [],
             "cpu": record["timing"]["cpu_seconds"], "stages": record["timing"].get("stages", {})}
-    if varied:
-        made["setting"] = {key: spec["protocol"][key] for key in varied}
+    if study in LINE:
+        made["preparation"] = preparation_of(spec["protocol"])
     if record["status"] != "done":
         return made
     made |= {"phi_j": record["phi_j"]["phi_j"], "fit_window": spec["protocol"]["fit_window"]}
-    states = record["states"][-1:] if nearest_only else record["states"]
-    return made if varied else {**made, "states": columns_of(states, spec["particles"])}
+    states = record["states"][-1:] if study in NEAREST_ONLY else record["states"]
+    return {**made, "states": columns_of(states, spec["particles"])}
 
 
 def histogram(bins_of_states, kind, below=None):
@@ -264,10 +261,9 @@ def study_of(isojam, directory):
     tables = tables_of(isojam, directory)
     named = list(records_of(directory))
     records = [record for _, record in named]
-    varied = [key for key in VARIED if key in tables["rows"][0]["parameters"]]
     made = {"git": sorted({r["provenance"]["git"] for r in records}), "exclude": tables["exclude"],
             "critical_angles": {}, "spectra": {}, "clusters": {}, "structure": {}, "emergence": {}, "troughs": []}
-    for row in [] if varied else tables["rows"]:
+    for row in [] if directory.name in LINE else tables["rows"]:
         kept = [r for r in records if r["status"] == "done" and not set(tables["exclude"]) & set(r.get("flags") or ())
                 and (r["spec"]["solid"], r["spec"]["particles"]) == (row["solid"], row["particles"])]
         if row.get("critical_angles"):
@@ -284,8 +280,7 @@ def study_of(isojam, directory):
         made["troughs"] += troughs_of(row, kept)
         if directory.name == EMERGENCE:
             made["emergence"][row["solid"]] = emergence_of(kept, row["critical_angles"])
-    nearest_only = directory.name in NEAREST_ONLY
-    return {**made, "replicates": [replicate_of(record, varied, nearest_only) for record in records]}
+    return {**made, "replicates": [replicate_of(record, directory.name) for record in records]}
 
 
 def main():

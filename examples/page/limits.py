@@ -6,7 +6,6 @@ import statistics
 from estimates import resamples, student
 from scaling import line
 
-FORMS = (0.5, 1.0, None)  # exponents of Δφ; None: the exponent that fits best
 GRID = tuple(round(0.2 + 0.05 * i, 2) for i in range(37))  # 0.2 … 2
 
 
@@ -61,24 +60,12 @@ def limit(paths, window, exponent, draws=100, seed=1):
 
 
 def extrapolated(points):
-    """Intercept of a line through points (x, y, half width of y), weighted by their half widths."""
+    """Intercept and slope of a line through points (x, y, half width of y), weighted by their half widths."""
     weights = [width ** -2 for _, _, width in points]
     total = sum(weights)
     mean_x = sum(w * x for w, (x, _, _) in zip(weights, points)) / total
     mean_y = sum(w * y for w, (_, y, _) in zip(weights, points)) / total
     xx = sum(w * (x - mean_x) ** 2 for w, (x, _, _) in zip(weights, points))
     slope = sum(w * (x - mean_x) * (y - mean_y) for w, (x, y, _) in zip(weights, points)) / xx
-    return {"mean": mean_y - slope * mean_x, "half_width": math.sqrt(1 / total + mean_x ** 2 / xx), "n": len(points)}
-
-
-def limit_of_choices(paths, windows, central=(0, None)):
-    """Limits for all windows and forms, and the limit of the central choice with a systematic error.
-
-    The limits are a dict {(index of the window, form): estimate}. The systematic error is half the range over all
-    choices that have a limit. If the central choice has no limit, there is none."""
-    every = {(i, form): limit(paths, window, form) for i, window in enumerate(windows) for form in FORMS}
-    chosen = every[central]
-    if not chosen:
-        return every, None
-    means = [estimate["mean"] for estimate in every.values() if estimate]
-    return every, {**chosen, "systematic": 0.5 * (max(means) - min(means))}
+    return {"mean": mean_y - slope * mean_x, "half_width": math.sqrt(1 / total + mean_x ** 2 / xx), "n": len(points),
+            "slope": {"mean": slope, "half_width": math.sqrt(1 / xx), "n": len(points)}}

@@ -3,24 +3,13 @@
 import verdict
 from data import PLURALS, SOLIDS
 from marks import PageError
-from text import interval, number
-
-
-def estimate(data, column, solid, particles, distance=None):
-    """Mean and interval of a column, nearest jamming or at a distance."""
-    return interval(data.at(solid, int(particles), column, distance and float(distance)))
+from text import number
 
 
 def constraints(data, how, solid, particles):
     """C without its errors, with two decimals."""
     found = data.constraints(solid, int(particles), how)
     return number(found["mean"], 2) if found else "–"
-
-
-def column_range(data, column, particles, places="1"):
-    """Smallest and largest mean over the solids nearest jamming, without solids that lack it."""
-    found = [e["mean"] for solid in SOLIDS if (e := data.nearest(solid, int(particles), column))]
-    return f"{number(min(found), int(places))} … {number(max(found), int(places))}" if found else "–"
 
 
 def listed(solids):
@@ -55,9 +44,7 @@ def minima(data, which, *sizes):
 
 
 VALUES = {"verdict": verdict.verdict, "place": verdict.place, "single_stress": lambda data, i: str(verdict.single_stress(data)[int(i)]),
-          "exponents": lambda data, column, solid: number(verdict.limit(data, solid, column)["mean"], 2),
-          "at": estimate, "C": constraints, "range": column_range,
-          "against_isostatic": against_isostatic, "minima": minima}
+          "C": constraints, "minima": minima}
 
 
 def value_of(functions):

@@ -9,20 +9,21 @@ from estimates import estimate_of
 from limits import extrapolated
 from text import interval, number, significant, table
 
-WITHIN = {"tetrahedron": 1e-3}  # largest Δφ of the states that count, if it is not 3e-4
+# Largest Δφ of the states that count, if it is not 3e-4: large packings of tetrahedra end farther from jamming.
+WITHIN = {("tetrahedron", 64): 1e-3, ("tetrahedron", 100): 1e-3, ("tetrahedron", 200): 1e-3, ("tetrahedron", 400): 2.5e-3}
 MEANT = ("C_x", "m_x", "m_supported")
 FEW = 0.06  # no constraints are missing if m is surely below 1 % of the six motions of a particle
 
 
-def packings(data, solid, particles):
-    """Last states of the packings that means use: {column: value}, with Δφ."""
+def packings(data, solid, particles, studies=CONSTRAINTS):
+    """Last states of the packings that means use: {column: value}, with Δφ, φ_J and the preparation."""
     found = []
-    for name in CONSTRAINTS:
+    for name in studies:
         for r in data.kept_of(name, solid):
             last = {column: values[-1] for column, values in r["states"].items()}
             distance = last["phi"] - r["phi_j"]
-            if r["particles"] == particles and last.get("C_x") is not None and distance <= WITHIN.get(solid, 3e-4):
-                found.append({**last, "distance": distance})
+            if r["particles"] == particles and last.get("C_x") is not None and distance <= WITHIN.get((solid, particles), 3e-4):
+                found.append({**last, "distance": distance, "phi_j": r["phi_j"], "preparation": r.get("preparation")})
     return found
 
 
@@ -43,8 +44,12 @@ def three_means(data, solid, particles, column):
 
 
 def with_range(central, low, high):
-    """An estimate with half of its range over the boundaries of the classes as the systematic error."""
-    return {**central, "systematic": abs(high["mean"] - low["mean"]) / 2} if low and high else central
+    """An estimate with half of its range over the boundaries of the classes as the systematic error, and the ends of the 95 %
+    confidence intervals over all boundaries."""
+    if not low or not high:
+        return central
+    ends = (low["mean"] - (low["half_width"] or 0), high["mean"] + (high["half_width"] or 0))
+    return {**central, "systematic": (high["mean"] - low["mean"]) / 2, **dict(zip(("least", "greatest"), ends))}
 
 
 def mean(data, solid, particles, column):
@@ -63,33 +68,29 @@ def limit(data, solid, column):
     if place(data) != "N → ∞":
         return mean(data, solid, int(place(data).split()[-1]), column)
     found = {n: three_means(data, solid, n, column) for n in sizes(data, solid)}
-    return with_range(*(extrapolated([(1 / n, means[k]["mean"], max(means[0]["half_width"], 1 / n / means[0]["n"]))
+    return with_range(*(extrapolated([(1 / n, means[k]["mean"], max(means[k]["half_width"], 1 / n / means[k]["n"]))
                                       for n, means in found.items()]) for k in range(3)))
-
-
-def error(estimate):
-    return estimate["half_width"] + estimate["systematic"]
 
 
 def call(data, solid):
     m = limit(data, solid, "m_x")
-    return "missing" if m["mean"] > error(m) else "none" if m["mean"] + error(m) < FEW else "uncertain"
+    return "missing" if m["least"] > 0 else "none" if m["greatest"] < FEW else "uncertain"
 
 
-SENTENCES = {"missing": "Constraints are missing in packings of {}.",
-             "none": "No constraints are missing in {}.", "uncertain": "{} are uncertain."}
+SENTENCES = {"missing": ("Constraints are missing in packings of {}.", "{}, at least {}"),
+             "none": ("No constraints are missing in {}.", "{0}, at most {2}"), "uncertain": ("{} are uncertain.", "{}, from {} to {}")}
 
 
 def verdict(data):
-    """Sentences that name each solid, with the limit of m and the sum of its errors."""
+    """Sentences that name each solid, with the limit of m and its bounds."""
     made = []
-    for key, sentence in SENTENCES.items():
-        names = [f"{PLURALS[s]} ({number(m['mean'], 3)} ± {number(error(m), 3)})" for s in SOLIDS
+    for key, (sentence, bounds) in SENTENCES.items():
+        names = [f"{PLURALS[s]} ({bounds.format(*(number(m[name], 3) for name in ('mean', 'least', 'greatest')))})" for s in SOLIDS
                  if call(data, s) == key and (m := limit(data, s, "m_x"))]
         if names:
             text = sentence.format(" and ".join(filter(None, (", ".join(names[:-1]), names[-1]))))
             made.append(text[0].upper() + text[1:])
-    return " ".join(made).replace(" (", " (m = ", 1).replace(")", " per particle)", 1)
+    return " ".join(made).replace(" (", " (m = ", 1).replace(", at", " per particle, at", 1)
 
 
 def single_stress(data, solids=SOLIDS[1:]):
@@ -98,11 +99,16 @@ def single_stress(data, solids=SOLIDS[1:]):
     return sum(found), len(found)
 
 
+def bounds(estimate):
+    return f"{number(estimate['least'], 3)} … {number(estimate['greatest'], 3)}"
+
+
 def verdict_table(data):
     size = max(set.intersection(*(set(sizes(data, s)) for s in SOLIDS)))
+    at_infinity = place(data) == "N → ∞"
     rows = [(f"{name}, {place(data)}", [interval(limit(data, s, column)) for s in SOLIDS]) for name, column in (("C", "C_x"), ("m", "m_x"))]
-    rows += [] if place(data) != "N → ∞" else [(f"m, N = {n}", [interval(mean(data, s, n, "m_x")) if n in sizes(data, s) else "–" for s in SOLIDS])
-             for n in sorted({n for s in SOLIDS for n in sizes(data, s)})]
+    rows += [(f"bounds of m, {place(data)}", [bounds(limit(data, s, "m_x")) for s in SOLIDS])]
+    rows += [(f"bounds of m, N = {size}", [bounds(mean(data, s, size, "m_x")) for s in SOLIDS])] if at_infinity else []
     rows += [(f"m without underconstrained particles, N = {size}",
               [interval(mean(data, s, size, "m_supported")) for s in SOLIDS]),
              ("packings with S = 1", ["{} of {}".format(*single_stress(data, [s])) for s in SOLIDS]),

@@ -2,12 +2,10 @@
 
 import json
 import math
-from operator import itemgetter
 from pathlib import Path
 
-from data import CYCLES, REMOVED, SOLIDS
-from estimates import (NORMAL, added, difference_of, estimate_of, larger_chi_squared, normal_deviate, single_half_width,
-                       student)
+from data import SOLIDS
+from estimates import NORMAL, added, estimate_of, larger_chi_squared, normal_deviate, single_half_width, student
 
 VALUES = json.loads((Path(__file__).resolve().parent / "data/paper.json").read_text(encoding="utf-8"))["figures"]
 # Rounded dice in a box, the third column of the paper's Table I, and tetrahedral dice, that of its Table III. The errors
@@ -17,7 +15,6 @@ DICE_DENSITY = {"tetrahedron": (0.64, 0.01), "octahedron": (0.64, 0.01), "icosah
 # Maximally random jammed packings of hard solids, Jiao and Torquato (2011), from memory.
 HARD_DENSITY = {"tetrahedron": 0.763, "octahedron": 0.697, "icosahedron": 0.707, "dodecahedron": 0.716}
 DICE = {"Z": "6.3 ± 0.5", "Z_ff": "2.3", "Z_ef": "1.2", "Z_l": "2.8", "C": "12.1 ± 1.6"}
-MEAN = itemgetter("mean")
 NEAR_JAMMING = 0.0015  # largest mean Δφ of states that show C at jamming
 # Smallest Δφ of the paper's stable states, from the caption of its Figure 3.
 STABLE_FROM = {"tetrahedron": 0.04, "octahedron": 0.02, "icosahedron": 0.01, "dodecahedron": 0.01}
@@ -69,21 +66,6 @@ def within(data, figure, estimate):
     if rest <= estimate["half_width"] + estimate.get("systematic", 0.0):
         return "confidence interval"
     return "prediction interval" if rest <= single_half_width(estimate) else "**outside**"
-
-
-def density_changes(data, solid):
-    """Mean changes of φ_J by the protocol, N = 100. `energy`: compression to 1e-9 instead of 3.2e-5. `removed`: the largest
-    change by cohesion that was removed, from the same compression without cohesion. `cycles`: from the first to the last
-    decompression. `least` and `greatest`: of all protocols, from that of the main studies."""
-    by_strength, ours = {}, [r["phi_j"] for r in data.kept(solid, 100)]
-    for r in data.kept_of(REMOVED, solid):
-        by_strength.setdefault(r["w"], []).append(r["phi"])
-    every = [*data.protocol_shifts(solid).values(), *(difference_of(ours, values) for values in by_strength.values())]
-    without = by_strength.pop(min(by_strength))
-    removed = [difference_of(without, values) for values in by_strength.values()]
-    return {"energy": difference_of(ours, without), "removed": max(removed, key=MEAN), "removed_least": min(removed, key=MEAN),
-            "cycles": estimate_of([r["phi"] - r["cycles"][0]["phi_j"] for r in data.kept_of(CYCLES, solid)]),
-            "least": min(every, key=MEAN), "greatest": max(every, key=MEAN)}
 
 
 def region_two(histogram, width, critical):

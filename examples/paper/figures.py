@@ -10,9 +10,10 @@ import numpy  # noqa: E402
 from matplotlib import pyplot  # noqa: E402
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: E402
 
+import preparations  # noqa: E402
 from data import SOLIDS, Data  # noqa: E402
 from drawing import COLOURS, GRID, MARKERS, SETTINGS, WIDTH, curve, letter, mean_path, save, solid_legend  # noqa: E402
-from comparison import DICE_DENSITY, density_changes, drawn_size, figures_of  # noqa: E402
+from comparison import DICE_DENSITY, drawn_size, figures_of  # noqa: E402
 from tables import structure  # noqa: E402
 
 
@@ -20,7 +21,7 @@ def densities(data, out):
     """φ_J of all packings, beside the paper's values."""
     figure, panels = pyplot.subplots(1, len(SOLIDS), figsize=(WIDTH, 2.6), layout="constrained")
     for axes, solid, name in zip(panels, SOLIDS, "abcd"):
-        below, above = (density_changes(data, solid)[end]["mean"] for end in ("least", "greatest"))
+        below, above = (preparations.extreme(data, solid, end)["mean"] for end in (min, max))
         for place, particles in enumerate((100, 400)):
             values = [r["phi_j"] for r in data.kept(solid, particles)]
             mean = data.phi_j(solid, particles)

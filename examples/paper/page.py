@@ -7,22 +7,21 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "page"))
 
 import pages  # noqa: E402
+import preparations  # noqa: E402
 import values  # noqa: E402
-from comparison import (DICE_DENSITY, HARD_DENSITY, STABLE_FROM, density_changes, drawn_size, figures_of,  # noqa: E402
-                        offset_test, within)
+from comparison import DICE_DENSITY, HARD_DENSITY, STABLE_FROM, drawn_size, figures_of, offset_test, within  # noqa: E402
 from data import SOLIDS  # noqa: E402
-from tables import (SIZES, TABLES, agreement, change, changes, contacts_at_jamming, emergence, needed_packings,  # noqa: E402, F401
-                    region_two_ratios, structure, summary)
-from text import interval, number, significant  # noqa: E402
+from tables import (SIZES, TABLES, agreement, contacts_at_jamming, emergence, needed_packings, region_two_ratios,  # noqa: E402, F401
+                    structure, summary)
+from text import number, significant  # noqa: E402
 
 TITLE = "Jammed packings of Platonic solids"
-FILES = (HERE / "data/records.json", HERE.parent / "percolation/data/records.json",
-         HERE.parent / "rigidity/data/constraints.json")
+FILES = (HERE / "data/records.json", HERE.parent / "rigidity/data/constraints.json")
 ENTRIES = """An entry a ± b (n) is the mean a over n packings and half the width b of its 95 % confidence interval
 (Student t). A third number ± c is a systematic error, which the text defines. *Single packing* is half the width of the
 95 % prediction interval: with this probability, another packing of ours is within our mean ± this number. *Nearest* is
 the state nearest jamming of each packing. A dash means that the value is unknown."""
-BLOCKS = {"summary": summary, "changes": changes}
+BLOCKS = {"summary": summary, "changes": preparations.changes_table}
 END = {"least": min, "greatest": max}
 
 
@@ -37,12 +36,9 @@ def offsets(data, which):
     return {"chi_squared": number(found, 1), "freedom": str(found)}.get(which, significant(found, 2))
 
 
-def changed(data, which, solid):
-    return change(density_changes(data, solid)[which])
-
-
-def energy_change(data, end):
-    return number(END[end](-density_changes(data, s)["energy"]["mean"] for s in SOLIDS), 3)
+def lowered(data, end):
+    """Decrease of φ_J by a target energy of 1e-9."""
+    return number(END[end](-preparations.change(data, s, "1e-09")["mean"] for s in SOLIDS), 3)
 
 
 def hard_offset(data, solid):
@@ -90,7 +86,9 @@ def offsets_of(data, solid):
 
 
 value_of = values.value_of({
-    **values.VALUES, "Z_J": at_jamming, "offsets": offsets, "changed": changed, "energy_change": energy_change,
+    **values.VALUES, "Z_J": at_jamming, "offsets": offsets, "lowered": lowered,
+    "change": lambda data, *place: preparations.signed(preparations.change(data, *place)),
+    "extreme": lambda data, solid, end: preparations.signed(preparations.extreme(data, solid, END[end])),
     "chance": lambda data: number(100 * offset_test(data)["chance"], 0),
     "hard": lambda data, solid: number(hard_offset(data, solid), 3), "largest_offset": largest_offset, "cluster": cluster,
     "region_two": lambda data, which: number(100 * END[which](off for off, _ in region_two(data)), 0),
@@ -110,18 +108,18 @@ CLAIMS = {
         (e := contacts_at_jamming(data, s, 400)) and e["mean"] + e["half_width"] < 10 for s in SOLIDS),
     "(icosahedra) to": lambda data: [f(SOLIDS, key=lambda s: contacts_at_jamming(data, s, 400)["mean"]) for f in (
         min, max)] == [SOLIDS[2], SOLIDS[0]],
-    "C of 400 octahedra, icosahedra and dodecahedra agrees with 12 within the errors": lambda data: [
+    "C of 400 octahedra, icosahedra and dodecahedra agrees with 12": lambda data: [
         agreement(data, s, "fit") for s in SOLIDS] == ["above", "agrees", "agrees", "agrees"],
-    "(tetrahedra), while other protocols change them by": lambda data: float(largest_offset(data)) < max(
+    "(tetrahedra), while other preparations change that of tetrahedra by": lambda data: float(largest_offset(data)) < max(
         offsets_of(data, SOLIDS[0])) + 0.0006 and all(
-        abs(density_changes(data, s)["least"]["mean"]) > max(offsets_of(data, s)) for s in SOLIDS),
-    "(dodecahedra) to": lambda data: [end(SOLIDS, key=lambda s: density_changes(data, s)[which]["mean"]) for which, end in (
-        ("least", min), ("greatest", max))] == [SOLIDS[3], SOLIDS[0]],
+        end(SOLIDS, key=lambda s: preparations.extreme(data, s, end)["mean"]) == SOLIDS[0] for end in (min, max)),
+    "Preparations change φ_J by more than these offsets.": lambda data: all(
+        abs(preparations.extreme(data, s, min)["mean"]) > max(offsets_of(data, s)) for s in SOLIDS),
     "A compression that ends at E/N = 1e-9 instead of 3.2e-5 lowers φ_J of every solid,": lambda data: all(
-        e["mean"] + e["half_width"] < 0 for s in SOLIDS if (e := density_changes(data, s)["energy"])),
+        e["mean"] + e["half_width"] < 0 for s in SOLIDS if (e := preparations.change(data, s, "1e-09"))),
     "Ours are nearly as dense,": lambda data: all(
         0 < hard_offset(data, s) < 0.012 for s in SOLIDS[1:]) and hard_offset(data, SOLIDS[0]) > 0.1,
-    "Cohesion that is removed raises φ_J of tetrahedra again": lambda data: sure(density_changes(data, SOLIDS[0])["removed_least"]),
+    "Cohesion that is removed raises φ_J of tetrahedra again": lambda data: sure(preparations.change(data, SOLIDS[0], "removed")),
     "among eight offsets, chance alone gives such a least probability": lambda data: offset_test(data)["chance"] > 0.1,
     "The paper's intervals are narrower than the spread of single packings.": lambda data: all(
         f["error"] < data.phi_j(f["solid"], f["particles"])["half_width"] * (data.phi_j(

@@ -5,9 +5,8 @@ import math
 import statistics
 
 import verdict
-from comparison import (DICE, DICE_DENSITY, STABLE_FROM, density_changes, drawn_size, figures_of, offset, region_two,
-                        uncertainty, within)
-from data import EMERGENCE, LARGE, NEGATIVE, SOLIDS, base_of
+from comparison import DICE, DICE_DENSITY, STABLE_FROM, drawn_size, figures_of, offset, region_two, uncertainty, within
+from data import EMERGENCE, LARGE, NEGATIVE, SOLIDS
 from estimates import NORMAL, difference_of, estimate_of, student
 from limits import limit
 from text import counted, interval, number, significant, signed, spread, table
@@ -54,20 +53,6 @@ def summary(data):
          *(interval(verdict.limit(data, solid, column)) for column in ("C_x", "m_x"))] for solid in SOLIDS])
 
 
-def change(estimate):
-    return "+" * bool(estimate and estimate["mean"] > 0) + interval(estimate)
-
-
-def changes(data):
-    rows = []
-    for solid in SOLIDS:
-        found = density_changes(data, solid)
-        rows.append([solid, *(change(found[name]) for name in ("energy", "removed", "cycles", "least", "greatest")),
-                     spread(data.phi_j(solid, 400))])
-    return table(["change of φ_J", "target energy 1e-9", "removed cohesion", "four cycles", "lowest", "highest",
-                  "single packing"], rows)
-
-
 def needed_packings(data, figure):
     """Number of packings like ours for which the interval of a mean is that of the paper."""
     ours = data.phi_j(figure["solid"], figure["particles"])
@@ -97,18 +82,6 @@ def sizes(data):
         rows.append([solid, f"{signed(found['mean'], 4)} ± {number(found['half_width'], 4)}" if found else "–",
                      signed(paper_density(solid, 400)["value"] - paper_density(solid, 100)["value"], 4)])
     return table(["φ_J(N = 400) − φ_J(N = 100)", "ours", "paper"], rows)
-
-
-def protocols(data):
-    shifts = {solid: data.protocol_shifts(solid) for solid in SOLIDS}
-    rows = []
-    for setting in sorted({s for found in shifts.values() for s in found}):
-        before, step, budget = setting
-        cells = ["ours" if setting == tuple(base_of(solid).values()) else
-                 counted({**e, "mean": 1e4 * e["mean"], "half_width": 1e4 * e["half_width"]}) if
-                 (e := shifts[solid].get(setting)) else "–" for solid in SOLIDS]
-        rows.append(["before" if before else "after", number(step, 3), str(budget), *cells])
-    return table(["energy", "step", "evaluations", *SOLIDS], rows)
 
 
 def constraints(data):
@@ -319,9 +292,6 @@ TABLES = (
      ours whose mean would have an interval as narrow as the paper's. The dice are rounded dice, whose densities the
      paper quotes.""", densities),
     ("Finite-size effect of the jamming density", "The interval is that of Welch's t.", sizes),
-    ("Shift of the jamming density by the compression protocol", """Paired differences of φ_J in units of 10⁻⁴ (N = 100,
-     same initial configurations): the protocol of the row minus ours. Ours compares the energy after relaxation with the
-     target, and uses a strain step of 0.02 and 500 evaluations (tetrahedra: 2000). A dash means fewer than three pairs.""", protocols),
     ("C by two classifications", """The second error of C by trough is half the difference between C at both edges
      of the trough. That of C by fit is half its range from half to twice the fitted cut-offs.""",
      constraints),

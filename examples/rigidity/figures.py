@@ -8,10 +8,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "page"))
 import matplotlib  # noqa: E402
 from matplotlib import pyplot  # noqa: E402
 
+import preparations  # noqa: E402
+import verdict  # noqa: E402
 from data import SOLIDS, SOLIDS_64, Data  # noqa: E402
 from drawing import COLOURS, MARKERS, PALETTE, SETTINGS, WIDTH, curve, letter, mean_path, save, solid_legend  # noqa: E402
-from counting import EDGES, drawn_size  # noqa: E402
-from tables import other_solids  # noqa: E402
+from estimates import estimate_of  # noqa: E402
+from tables import EDGES, drawn_size, other_solids  # noqa: E402
 from troughs import density  # noqa: E402
 
 DRAWN = (0.02, 0.01, 0.005, 0.001)  # Δφ of the densities of angles, beside the nearest
@@ -70,24 +72,39 @@ def counting(data, out):
         for axes, column in ((left, "missing"), (middle, "redundant")):
             band(axes, data, solid, 100, column)
             curve(axes, mean_path(data, solid, 100, column), solid)
-        for how, filled, shift in (("fit", False, 0.95), ("trough", True, 1.05)):
-            points = [(n, e) for n in data.sizes(solid) if (e := data.constraints(solid, n, how)) and e["half_width"]
-                      and e["n"] > 2]
-            if points:
-                x, y = [shift / n for n, _ in points], [e["mean"] for _, e in points]
-                wide = [e.get("systematic", 0) for _, e in points]
-                right.errorbar(x, y, wide, fmt="none", color=COLOURS[solid], elinewidth=5, alpha=0.3)
-                right.errorbar(x, y, [e["half_width"] for _, e in points], color=COLOURS[solid], elinewidth=0.8,
-                               marker=MARKERS[solid], markerfacecolor=None if filled else "white", linestyle="none")
-    sizes = [0.0008, 0.0225]
-    right.plot(sizes, [12 - 4 * x for x in sizes], "k:", linewidth=0.8)
+        points = [(1 / n, verdict.mean(data, solid, n, "m_x")) for n in verdict.sizes(data, solid)]
+        for x, e in (*points, (0, verdict.limit(data, solid, "m_x"))):
+            filled, x = x > 0, x + 0.0002 * (SOLIDS.index(solid) - 1)
+            right.errorbar([x], [e["mean"]], e["systematic"], fmt="none", color=COLOURS[solid], elinewidth=5, alpha=0.3)
+            right.errorbar([x], [e["mean"]], e["half_width"], color=COLOURS[solid], elinewidth=0.8, marker=MARKERS[solid],
+                           markerfacecolor=None if filled else "white", linestyle="none")
     left.set(xscale="log", xlabel="Δφ", ylabel="missing constraints m", ylim=(-0.03, 2.1))
     middle.set(xscale="log", xlabel="Δφ", ylabel="states of self-stress S/N", ylim=(-0.03, 1.6))
-    right.set(xlabel="1/N", ylabel="C nearest jamming", xlim=(0, 0.0225), ylim=(11.2, 13.3))
+    right.axhline(0, color="black", linewidth=0.8, linestyle=":")
+    right.set(xlabel="1/N", ylabel="missing constraints m by exponents", xlim=(-0.001, 0.0175))
     solid_legend(left, loc="upper left")
     for axes, name in zip((left, middle, right), "abc"):
         letter(axes, name)
     save(figure, out / "counting")
+
+
+def line(data, out):
+    """m, C and S by exponents against φ_J, of packings by all preparations."""
+    figure, panels = pyplot.subplots(1, 3, figsize=(WIDTH, 2.8), layout="constrained")
+    groups = ((preparations.ENERGIES, "-", None), (("removed",), "", "white"), (("cycles",), "", "0.75"))
+    for axes, name, column, label in zip(panels, "abc", ("m_x", "C_x", "self_stress_x"), (
+            "missing constraints m", "constraint number C", "states of self-stress S")):
+        for solid in SOLIDS:
+            for chosen, style, face in groups:
+                known = [p for p in chosen if len(preparations.values(data, solid, p, column)) > 1]
+                x, y = ([estimate_of(preparations.values(data, solid, p, c)) for p in known] for c in ("phi_j", column))
+                axes.errorbar([e["mean"] for e in x], [e["mean"] for e in y], [e["half_width"] for e in y],
+                              [e["half_width"] for e in x], color=COLOURS[solid], marker=MARKERS[solid], linestyle=style,
+                              markerfacecolor=face, elinewidth=0.6)
+        axes.set(xlabel="jamming density φ$_J$", ylabel=label, yscale="log" if name == "c" else "linear")
+        letter(axes, name)
+    solid_legend(panels[0], loc="upper left")
+    save(figure, out / "line")
 
 
 def frequencies(data, out):
@@ -159,7 +176,7 @@ def main():
     out, data = Path(sys.argv[1]), Data(*sys.argv[2:])
     out.mkdir(parents=True, exist_ok=True)
     with matplotlib.rc_context(SETTINGS):
-        for draw in (angles, counting, frequencies, solids):
+        for draw in (angles, counting, line, frequencies, solids):
             draw(data, out)
 
 

@@ -1,6 +1,7 @@
 """Updates README.md, or makes it and tables.md in OUT: python3 page.py [--data FILE...] [-o OUT] [--check]"""
 
 import math
+import statistics
 import sys
 from pathlib import Path
 
@@ -8,11 +9,11 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "page"))
 
 import pages  # noqa: E402
+import preparations  # noqa: E402
 import values  # noqa: E402
 import verdict  # noqa: E402
-from counting import EDGES, FAR, drawn_size, infinite, limit_at_jamming  # noqa: E402
 from data import SOLIDS, SOLIDS_64  # noqa: E402
-from tables import DISTANCES, TABLES, TILTS_AT, main_table, other_solids, tilts_table  # noqa: E402, F401
+from tables import DISTANCES, EDGES, FAR, TABLES, TILTS_AT, drawn_size, main_table, other_solids, tilts_table  # noqa: E402, F401
 from text import interval, number, significant  # noqa: E402
 
 TITLE = "What makes a packing rigid"
@@ -35,19 +36,9 @@ def exponent_end(data, column, end):
     return number(min(means) if end == "least" else max(means), 2) if means else "–"
 
 
-def among(data, column, end, places="1"):
-    """Least or greatest mean over octahedra, icosahedra and dodecahedra, N = 100, at TILTS_AT."""
-    means = [e["mean"] for s in WITHOUT_TETRAHEDRA if (e := data.at(s, 100, column, TILTS_AT))]
-    return number(min(means) if end == "least" else max(means), int(places)) if means else "–"
-
-
 def end_of(values_of, places):
     """A function of data and "least" or "greatest" that writes this end of some values."""
     return lambda data, end: number({"least": min, "greatest": max}[end](values_of(data)), places)
-
-
-def missing_by_normals(data):
-    return [data.nearest(s, 100, "missing_normals")["mean"] for s in SOLIDS]
 
 
 def unsupported_modes(data):
@@ -70,11 +61,6 @@ def wave_ratios(data):
             if (e := data.at(s, n, "wave", d)) and e["n"] > 2]
 
 
-def missing_limits(data):
-    """Limits of m by fit for Δφ → 0 and N → ∞, of icosahedra and dodecahedra."""
-    return [infinite(data, s, "missing") for s in SOLIDS[2:]]
-
-
 def decreasing(data, solid, column):
     """True if the local exponent with N = 400 at the largest Δφ is smaller than another one by more than the errors."""
     found = [e for e in data.exponents(solid, 400, column, EDGES) if e and e["n"] > 2 and e["half_width"] < 1]
@@ -92,27 +78,33 @@ def solids_end(data, column, end):
     return number(min(means) if end == "least" else max(means), 1) if means else "–"
 
 
-def farthest(data):
-    return max(values.farthest(data, data.sizes(s)) for s in SOLIDS)
+def stresses(data):
+    """Mean S of tetrahedra by each preparation, in the order of φ_J."""
+    groups = [[preparations.values(data, SOLIDS[0], p, column) for column in ("phi_j", "self_stress_x")]
+              for p in (preparations.OURS, *preparations.PREPARATIONS)]
+    return [mean for _, mean in sorted([statistics.fmean(values) for values in pair] for pair in groups if all(pair))]
 
 
-def missing_solids(data):
-    return [s for s in other_solids(data) if len(data.kept_of(SOLIDS_64, s)) < 3]
+def single(data):
+    """Numbers of octahedra, icosahedra and dodecahedra of all preparations with S = 1, and of all."""
+    found = [x for s in WITHOUT_TETRAHEDRA for p in (preparations.OURS, *preparations.PREPARATIONS)
+             for x in preparations.values(data, s, p, "self_stress_x")]
+    return found.count(1), len(found)
 
 
 value_of = values.value_of({
-    **values.VALUES, "exponent": exponent_end, "among": among, "solids": solids_end,
-    "missing_normals": end_of(missing_by_normals, 1), "supported": lambda data: str(math.floor(100 * (1 - max(unsupported_modes(data)) / 6))),
+    **values.VALUES, "exponent": exponent_end, "solids": solids_end,
+    "supported": lambda data: str(math.floor(100 * (1 - max(unsupported_modes(data)) / 6))),
     "waves": end_of(wave_ratios, 1), "single_by_trough": single_by_trough,
     "C_s": lambda data, solid: interval(data.nearest(solid, 100, "C_s")),
-    "farthest": lambda data: significant(farthest(data), 2),
+    "reach": lambda data, solid: number(preparations.reach(data, solid) if solid in SOLIDS else min(
+        preparations.reach(data, s) for s in SOLIDS), 2),
+    "alike": lambda data, column, *solids: significant(min(preparations.probability(data, s, column) for s in solids or SOLIDS), 1),
+    "stress": end_of(stresses, 0), "single": lambda data, which: str(single(data)[which == "all"]),
+    "fall": end_of(lambda data: [preparations.fall(data, s) for s in SOLIDS], 2),
+    "slope_by_chance": lambda data: significant(preparations.slope_by_chance(data), 1),
     "size": lambda data: str(drawn_size(data)), "isostatic": lambda data: values.against_isostatic(
         data, "trough", drawn_size(data))})
-
-
-def most(data, value):
-    """The three solids with the largest values, among those with at least three packings."""
-    return sorted((s for s in other_solids(data) if len(data.kept_of(SOLIDS_64, s)) > 2), key=value)[-3:]
 
 
 def identity_holds(data):
@@ -140,21 +132,22 @@ CLAIMS = {
         (c := data.nearest(s, 100, "C_s"))["mean"] + c["half_width"] < 12 - 4 / 100 for s in SOLIDS[2:]),
     "packings of octahedra, icosahedra and dodecahedra, so that only m changes C.": lambda data: (
         one := verdict.single_stress(data))[0] > 0.95 * one[1],
-    "In dodecahedra, m exceeds its errors at every N, but only just in the limit.": lambda data: all(
-        m["mean"] > verdict.error(m) for n in verdict.sizes(data, SOLIDS[3]) if (m := verdict.mean(data, SOLIDS[3], n, "m_x"))
-    ) and 1 < (m := verdict.limit(data, SOLIDS[3], "m_x"))["mean"] / verdict.error(m) < 1.2,
+    "Denser packings lack slightly fewer constraints: m decreases with φ_J in every solid,": lambda data: all(
+        preparations.slope(data, s)["mean"] < 0 for s in SOLIDS) and preparations.slope_by_chance(data) < 0.01,
+    "So the preparation decides where a packing jams, but hardly how many constraints it lacks": lambda data: all(
+        preparations.probability(data, s, "m_x") > 0.05 for s in SOLIDS),
+    "packings of octahedra, icosahedra and dodecahedra, while in tetrahedra it increases with φ_J from": lambda data:
+        single(data)[0] > 0.95 * single(data)[1] and stresses(data)[0] < 0.7 * stresses(data)[-1]
+        and preparations.probability(data, SOLIDS[0], "self_stress_x") < 0.05,
+    "In octahedra, m exceeds 0 for all boundaries at every N, but not in the limit.": lambda data: all(
+        verdict.mean(data, SOLIDS[1], n, "m_x")["least"] > 0 for n in verdict.sizes(data, SOLIDS[1])) and verdict.limit(
+        data, SOLIDS[1], "m_x")["least"] < 0,
     "few missing constraints belong to underconstrained particles": lambda data: all(
         sum(p["m_supported"] for p in verdict.every(data, s)) > 0.7 * sum(p["m_x"] for p in verdict.every(data, s))
         for s in WITHOUT_TETRAHEDRA),
-    "so that only m changes C there too": lambda data: int(single_by_trough(data, "one")) > 0.9 * int(single_by_trough(data, "all")),
-    "By fit, the limits of m for N → ∞ are compatible with zero in icosahedra and dodecahedra": lambda data: all(
-        m["mean"] < m["half_width"] for m in missing_limits(data)),
+    "packings of these three solids.": lambda data: int(single_by_trough(data, "one")) > 0.9 * int(single_by_trough(data, "all")),
     "In no solid are the exponents of E and K constant: at the largest Δφ, both are smaller than nearer to jamming.":
         lambda data: all(decreasing(data, s, column) for s in SOLIDS for column in ("E", "K")),
-    "C_s exceeds C by fit most in icosahedra, dodecahedra and truncated octahedra, because their other contacts have the most "
-    "stiff tilts.": lambda data: set(most(data, lambda s: data.nearest_of(SOLIDS_64, s, "C_s")["mean"] - data.nearest_of(
-        SOLIDS_64, s, "C")["mean"])) == set(most(data, lambda s: data.nearest_of(SOLIDS_64, s, "stiff_tilts_l")["mean"])) == {
-            "icosahedron", "dodecahedron", "truncated_octahedron"},
     "⟨ω_l⟩ follows √G more closely than √K": lambda data: max(
         abs(e["mean"]) for e in far_exponents(data, "omega_over_root_G")) < min(
         e["mean"] for e in far_exponents(data, "omega_over_root_K")),
@@ -164,9 +157,6 @@ CLAIMS = {
         len(of_solids(data, "C_s")) > 10 and all(
             abs(x - expected) < 0.2 for name, expected in (("ff", 2), ("ef", 1), ("l", 0))
             for x in of_solids(data, f"stiff_tilts_{name}")),
-    "All packings of cubes and most packings of rhombic dodecahedra are crystals, and no packing of truncated cubes "
-    "reached the target energy, so these three solids are missing": lambda data:
-        set(missing_solids(data)) == {"cube", "truncated_cube", "rhombic_dodecahedron"},
 }
 
 if __name__ == "__main__":

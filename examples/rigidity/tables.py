@@ -3,11 +3,10 @@
 import collections
 import math
 
+import preparations
 import verdict
-from counting import EDGES, WINDOWS, drawn_size, infinite, limit_at_jamming
 from data import APART, SOLIDS, SOLIDS_64
 from estimates import estimate_of
-from limits import FORMS
 from text import counted, interval, number, significant, table
 
 DISTANCES = (0.04, 0.02, 0.01, 0.005, 0.0025, 0.001, None)
@@ -15,6 +14,16 @@ TILTS_AT = 0.001  # Δφ at which modes and tilts are compared: nearer to jammin
 MODES = "modes per particle with less than half from"
 FITTED = {"face_face": "cut_ff", "edge_face": "cut_ef"}
 COLUMNS = [f"Δφ = {d}" if d else "nearest" for d in DISTANCES]
+EDGES = (0.0005, 0.001, 0.002, 0.004, 0.008, 0.016, 0.032, 0.064, 0.128)  # of the ranges of local exponents
+NEAR_JAMMING = 0.0015  # largest mean Δφ of states that show C at jamming
+FAR = (0.008, 0.128)  # range of Δφ in which ω_l is compared with √G and √K
+
+
+def drawn_size(data):
+    """The larger of the paper's sizes with troughs for all solids, near jamming."""
+    common = [n for n in (100, 400) if all(
+        data.trough(s, n) and data.nearest_distance(s, n)["mean"] < NEAR_JAMMING for s in SOLIDS)]
+    return max(common, default=100)
 
 
 def by_size(data, columns, distances=DISTANCES):
@@ -40,8 +49,7 @@ def main_table(data):
     size = drawn_size(data)
     return table([f"nearest jamming, N = {size}", *SOLIDS], [[name, *map(interval, found)] for name, found in (
         ("C by exponents", [verdict.mean(data, s, size, "C_x") for s in SOLIDS]),
-        *((f"C by {how}{place}", [data.constraints(s, n, how) for s in SOLIDS])
-          for n, place in ((size, ""), (400, ", N = 400")) for how in ("trough", "fit")),
+        *((f"C by {how}", [data.constraints(s, size, how) for s in SOLIDS]) for how in ("trough", "fit")),
         ("m by exponents", [verdict.mean(data, s, size, "m_x") for s in SOLIDS]),
         ("m by trough", [data.nearest(s, size, "missing_trough") for s in SOLIDS]),
         ("m by fit", [with_range(data, s, size, "missing") for s in SOLIDS]),
@@ -86,50 +94,6 @@ def troughs(data):
 def counts(data):
     return by_size(data, {"missing": "m", "redundant": "S/N", "missing_trough": "m, trough",
                           "redundant_trough": "S/N, trough"})
-
-
-def cutoffs(data):
-    return by_size(data, {"missing_half": "m, cut-offs × ½", "missing_double": "m, cut-offs × 2",
-                          "redundant_half": "S/N, cut-offs × ½", "redundant_double": "S/N, cut-offs × 2"})
-
-
-def limits_of(data, names):
-    """Limits of columns as Δφ → 0, {name of the column: its heading}."""
-    rows = []
-    for solid in SOLIDS:
-        for n in data.sizes(solid):
-            cells = []
-            for column in names:
-                every, chosen = limit_at_jamming(data, solid, n, column)
-                cells += [" / ".join(interval(every[0, form]) for form in FORMS), interval(chosen)]
-            if any(cell.strip("– /") for cell in cells):
-                rows.append([f"{solid} {n}", *cells, number(12 - 4 / n, 2)])
-        at_infinity = [interval(infinite(data, solid, column)) for column in names]
-        if rows and rows[-1][0].startswith(solid):
-            rows.append([f"{solid}, N → ∞", *(cell for limit in at_infinity for cell in ("", limit)), "12"])
-    heads = [head for name in names.values() for head in (f"{name}: x = ½ / 1 / free", name)]
-    return table(["solid, N", *heads, "12 − 4/N"], rows) if rows else "These data lack the values.\n"
-
-
-def limits(data):
-    return limits_of(data, {"C": "C", "missing": "m", "redundant": "S/N"})
-
-
-def limits_without_fit(data):
-    return limits_of(data, {"C_trough": "C by trough", "missing_trough": "m by trough"})
-
-
-def near_rattlers(data):
-    rows = []
-    columns = ("backbone_removed", "missing", "backbone_m", "redundant", "backbone_redundant", "C", "backbone_C")
-    for solid in SOLIDS:
-        for n in data.sizes(solid):
-            for distance in (0.005, TILTS_AT, None):
-                cells = [data.at(solid, n, name, distance) for name in columns]
-                if cells[0]:
-                    rows.append([f"{solid} {n}", str(distance or "nearest"), *map(counted, cells)])
-    return table(["solid, N", "Δφ", "near-rattlers removed", "m, all", "m, backbone", "S/N, all", "S/n, backbone",
-                  "C, all", "C, backbone"], rows)
 
 
 def exponents(data):
@@ -189,22 +153,13 @@ def cost(data):
 
 TABLES = (
     ("Constraints by exponents", "Means of the states nearest jamming as in Table 1 of the page.", verdict.by_size),
+    ("Other preparations", """Means as in Table 1 of the page. Compression ends at the target energy. *Removed cohesion* acted
+     with w = 1e-4 during a compression to 1e-9.""", preparations.every_table),
     ("Troughs in the densities of log θ", """Cut-offs and edges in radians, and the density at the cut-off per particle
      and decade. *Undecided* means that the density has no significant trough. *By fit* is log10 of the mean cut-off of the
      paper's fit, for comparison.""", troughs),
     ("Missing and redundant constraints", """m is the number of missing constraints per particle, (6N − 3 − rank)/N. S is
      the number of states of self-stress. Classes are by fit, unless the quantity names the trough.""", counts),
-    ("Effect of the fitted cut-offs", "Both fitted cut-offs are halved or doubled.", cutoffs),
-    ("Limits at jamming", f"""Each limit is a in the fit a + b Δφ^x to all packings (classes by fit), in the window Δφ <
-     {WINDOWS[0][1]}. The three values in a cell are for x = ½, 1 and free. The next column has the limit for free x. Its
-     first error is the 95 % interval by bootstrap. Its second error is half the range over the three forms and the
-     windows Δφ < {', '.join(str(high) for _, high in WINDOWS)}. A dash means that the data do not determine x: the
-     best x is at an end of its grid (0.2 … 2), or all values are equal. The limit N → ∞ is linear in 1/N.""", limits),
-    ("Limits at jamming by trough", """The same for classes by the troughs of single states. States without a trough are
-     left out.""", limits_without_fit),
-    ("Without near-rattlers", """Near-rattlers are removed until none is left. n is the number of particles that remain.
-     Ranks of a backbone are used only if the removed particles carried no force. Nearest jamming, softest modes that
-     cannot be distinguished from zero make particles look like near-rattlers.""", near_rattlers),
     ("Local exponents", """Mean slopes d ln y/d ln Δφ between neighbouring states in the range of Δφ at the head of the
      column. The systematic error is half the range over three fit windows of φ_J. Values with errors above 1 are left
      out.""", exponents),

@@ -28,12 +28,12 @@ def rows_of(files):
                 if r["status"] == "done" and not set(study["exclude"]) & set(r["flags"]):
                     by_exponents = name.startswith("rigidity-constraints")
                     rows.append({**r, "by_exponents": by_exponents,
-                                 "varied": None if by_exponents or "until" in r else "setting" in r})
+                                 "main": not (by_exponents or "preparation" in r or "until" in r)})
     return rows
 
 
 def of(rows, solid, particles):
-    return [r for r in rows if (r["solid"], r["particles"], r["varied"]) == (solid, particles, False)]
+    return [r for r in rows if (r["solid"], r["particles"], r["main"]) == (solid, particles, True)]
 
 
 def density_of(row):
@@ -73,24 +73,40 @@ def at_all(rows, solid, column):
     return numpy.mean([value / 100 for value in found if value is not None])
 
 
-def shifts(rows):
-    """The lowest and the highest mean shift of φ_J by another protocol, with half the width of their intervals: Student's t
-    of at least three pairs, or Welch's t for the packings with removed cohesion."""
-    found = []
+def changes(rows):
+    """{solid: {mean change of φ_J by another preparation: half the width of its interval}}"""
+    found = {}
     for solid in SOLIDS:
-        standard = (False, 0.02, 2000 if solid == "tetrahedron" else 500)  # compression protocol of the main studies
-        varied = {(tuple(r["setting"].values()), r["replicate"]): r["phi_j"] for r in rows
-                  if r.get("varied") and r["solid"] == solid}
-        for setting in {s for s, _ in varied} - {standard}:
-            pairs = [phi - varied[standard, i] for (s, i), phi in varied.items()
-                     if s == setting and (standard, i) in varied]
-            if len(pairs) >= 3:
-                found.append((numpy.mean(pairs), stats.t.ppf(0.975, len(pairs) - 1) * stats.sem(pairs)))
-        removed = [r for r in rows if r.get("until") == "decompression" and (r["solid"], r["particles"]) == (solid, 100)
-                   and "cycles" not in r]
-        ours = [r["phi_j"] for r in of(rows, solid, 100)]
-        found += [welch(ours, [r["phi"] for r in removed if r["w"] == w]) for w in {r["w"] for r in removed}]
-    return min(found) + max(found)
+        phi = {}
+        for r in rows:
+            if r["solid"] == solid and "preparation" in r:
+                phi.setdefault(r["preparation"], []).append(r["phi_j"])
+        ours = phi.pop("3.2e-05")
+        found[solid] = dict(welch(ours, other) for other in phi.values())
+    return found
+
+
+def reach(means):
+    return max(0, *means) - min(0, *means)
+
+
+def decreases(rows):
+    """Decrease of m over the range of φ_J, by a weighted line through the means of the preparations of each solid."""
+    for solid, means in changes(rows).items():
+        groups = {}
+        for r in rows:
+            m = r["states"].get("m_x", [None])[-1] if "preparation" in r and r["solid"] == solid else None
+            if m is not None and r["states"]["phi"][-1] - r["phi_j"] <= (1e-3 if solid == "tetrahedron" else 3e-4):
+                groups.setdefault(r["preparation"], []).append((r["phi_j"], m))
+        found = [numpy.array(g).T for g in groups.values() if len(g) > 2]
+        weights = [1 / max(stats.t.ppf(0.975, len(m) - 1) * stats.sem(m), 0.01 / len(m)) for _, m in found]
+        yield -numpy.polyfit([phi.mean() for phi, _ in found], [m.mean() for _, m in found], 1, w=weights)[0] * reach(means)
+
+
+def shifts(rows):
+    """The least and the greatest change, with half the width of their intervals."""
+    every = [pair for found in changes(rows).values() for pair in found.items()]
+    return min(every) + max(every)
 
 
 def paper_numbers(rows, text):
@@ -102,44 +118,46 @@ def paper_numbers(rows, text):
             *((f"C by fit, {SOLIDS[k]}", fits[k], 0.0051) for k in (1, 2, 3, 0)),
             ("Z_J, least", min(z), 0.051), ("Z_J, greatest", max(z), 0.051),
             ("largest offset of φ_J", max(abs(PAPER[k] - numpy.mean(v)) for k, v in phi.items()), 0.00051),
-            *zip(("shift, least", "its error", "shift, greatest", "its error"), shifts(rows), 4 * [0.000051])]
+            *zip(("shift, least", "its error", "shift, greatest", "its error"), shifts(rows), 4 * [0.00051])]
 
 
 def missing(rows, solid):
-    """{N: means of m with the central, lowest and highest boundaries, and half the width of the interval of the first}"""
-    found, within = {}, 1e-3 if solid == "tetrahedron" else 3e-4
+    """{N: three pairs of a mean of m, by the central, lowest and highest boundaries, and half the width of its interval, or its
+    resolution if that is larger}"""
+    found = {}
     for r in rows:
         last = {name: values[-1] for name, values in r["states"].items()} if r["by_exponents"] else {}
+        within = 3e-4 if solid != "tetrahedron" else 1e-3 if r["particles"] < 400 else 2.5e-3
         if r["solid"] == solid and last.get("m_x") is not None and last["phi"] - r["phi_j"] <= within:
             found.setdefault(r["particles"], []).append([last[name] for name in ("m_x", "m_x_low", "m_x_high")])
-    return {n: (*numpy.mean(m, axis=0), stats.t.ppf(0.975, len(m) - 1) * stats.sem(numpy.array(m)[:, 0]), len(m))
+    return {n: [(c.mean(), max(stats.t.ppf(0.975, len(c) - 1) * stats.sem(c), 1 / n / len(c))) for c in numpy.array(m).T]
             for n, m in found.items() if len(m) > 2}
 
 
 def verdict_numbers(rows, text):
-    """m and its error of each solid, in the order of the text: for N → ∞, by weighted least squares, or of the largest N."""
+    """m for N → ∞, by weighted least squares, and the bounds that the text names, in the order of the text."""
     made = []
     for solid in sorted(SOLIDS, key=lambda s: text.lower().index(s.replace("hedron", "hedra"))):
-        by_size = missing(rows, solid)
-        n, (*means, width, count) = numpy.array(list(by_size)), numpy.array(list(by_size.values())).T
-        if "N → ∞" in text:
-            scale = 1 / numpy.maximum(width, 1 / (n * count))
-            design = numpy.stack([scale, scale / n], axis=1)
-            (central, low, high), _ = numpy.linalg.lstsq(design, (scale * means).T, rcond=None)[0]
-            width = math.sqrt(numpy.linalg.inv(design.T @ design)[0, 0])
-        else:
-            central, low, high, width = (x[numpy.argmax(n)] for x in (*means, width))
-        made += [(f"m, {solid}", central, 0.00051), ("its error", width + abs(high - low) / 2, 0.00051)]
-    return made + ([] if "N → ∞" in text else [("N", int(max(n)), 0)])
+        by_size, ends = missing(rows, solid), []
+        for k, sign in enumerate((0, -1, 1)):
+            n, mean, width = numpy.array([(n, *found[k]) for n, found in by_size.items()]).T
+            design = numpy.stack([1 / width, 1 / width / n], axis=1)
+            ends.append(numpy.linalg.lstsq(design, mean / width, rcond=None)[0][0]
+                        + sign * math.sqrt(numpy.linalg.inv(design.T @ design)[0, 0]))
+        name, (central, least, greatest) = solid.replace("hedron", "hedra"), ends
+        words = re.search(rf"(?i){name} \([^)]*\)", text)[0]
+        made += [(f"m, {solid}", central, 0.00051)]
+        made += [("at least", least, 0.00051)] if "at least" in words or "from" in words else []
+        made += [("at most", greatest, 0.00051)] if "at most" in words or "from" in words else []
+    return made
 
 
 def rigidity_numbers(rows, text):
     left = [at_all(rows, s, "prestress_10") + at_all(rows, s, "zero") - 0.03 for s in SOLIDS]
-    normals = [numpy.mean([(r["states"]["floppy_normals"][-1] - 3) / 100 for r in of(rows, s, 100)]) for s in SOLIDS]
     return [*verdict_numbers(rows, text), *((str(n), n, 0) for n in (95, 12, 6, 2, 2, 12)),
+            ("range of φ_J", max(map(reach, changes(rows).values())), 0.0051), ("decrease of m", max(decreases(rows)), 0.0051),
             ("modes with most stiffness from both, %, rounded down", 100 * (1 - max(left) / 6), 1),
-            ("Δφ", 0.001, 0), ("missing by normals, least", min(normals), 0.051),
-            ("missing by normals, greatest", max(normals), 0.051)]
+            ("Δφ", 0.001, 0)]
 
 
 def cohesive(rows, until, **values):

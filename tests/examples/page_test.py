@@ -136,7 +136,6 @@ class Scaling(unittest.TestCase):
         self.assertIsNone(scaling.at([4, 2, 1], [16, 3, 12], 0.5))
         self.assertEqual(scaling.at([4, 2, 1], [16, 3, 12], 2), 3)
 
-
     def test_jamming_density_goes_round(self):
         # States that enter and leave the window as φ_J moves: the mean of the round, whatever it began with.
         bent = [e * (1 + 30 * (x - 0.7)) for x, e in zip(self.PHI, self.law(5))]
@@ -157,8 +156,6 @@ class Limits(unittest.TestCase):
             free = limits.limit(paths, (0, 0.02), None)
             self.assertAlmostEqual(free["mean"], 12, places=9)
             self.assertAlmostEqual(free["exponent"], exponent)
-            _, chosen = limits.limit_of_choices(paths, [(0, 0.03), (0, 0.01)])
-            self.assertGreater(chosen["systematic"], 1e-3)
         self.assertIsNone(limits.limit(paths[:2], (0, 1), 1.0))
         equal = [[(x, 0.0025) for x, _ in path] for path in paths]
         self.assertIsNone(limits.limit(equal, (0, 0.02), None))
@@ -168,9 +165,6 @@ class Limits(unittest.TestCase):
     def test_a_free_exponent_at_the_end_of_its_grid_is_not_used(self):
         paths = self.paths(2.6, 0, random.Random(1))
         self.assertIsNone(limits.limit(paths, (0, 0.02), None))
-        every, chosen = limits.limit_of_choices(paths, [(0, 0.02)])
-        self.assertIsNone(chosen)
-        self.assertIsNotNone(every[0, 1.0])
 
     def test_coverage(self):
         stream, hits, trials = random.Random(5), 0, 100
