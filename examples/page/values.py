@@ -55,6 +55,6 @@ def value_of(functions):
             raise PageError(f"there is no value named {name}; the values are {', '.join(sorted(functions))}")
         try:
             return functions[name](data, *arguments)
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, ArithmeticError) as error:
             raise PageError(f"the data lack the value {words}: {error}") from error
     return make
