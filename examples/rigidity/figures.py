@@ -103,7 +103,8 @@ def line(data, out):
                               markerfacecolor=face, elinewidth=0.6)
         axes.set(xlabel="jamming density φ$_J$", ylabel=label, yscale="log" if name == "c" else "linear")
         letter(axes, name)
-    solid_legend(panels[0], loc="upper left")
+    panels[2].set_ylim(0.5, 300)
+    solid_legend(panels[2], loc="upper right")
     save(figure, out / "line")
 
 
