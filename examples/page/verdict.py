@@ -90,7 +90,8 @@ def verdict(data):
         if names:
             text = sentence.format(" and ".join(filter(None, (", ".join(names[:-1]), names[-1]))))
             made.append(text[0].upper() + text[1:])
-    return " ".join(made).replace(" (", " (m = ", 1).replace(", at", " per particle, at", 1)
+    before, bracket = " ".join(made).split("(", 1)
+    return f"{before}(m = {bracket.replace(',', ' per particle,', 1)}"
 
 
 def single_stress(data, solids=SOLIDS[1:]):

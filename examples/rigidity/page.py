@@ -13,6 +13,7 @@ import preparations  # noqa: E402
 import values  # noqa: E402
 import verdict  # noqa: E402
 from data import SOLIDS, SOLIDS_64  # noqa: E402
+from limits import extrapolated  # noqa: E402
 from tables import DISTANCES, EDGES, FAR, TABLES, TILTS_AT, drawn_size, main_table, other_solids, tilts_table  # noqa: E402, F401
 from text import interval, number, significant  # noqa: E402
 
@@ -142,6 +143,9 @@ CLAIMS = {
     "In octahedra, m exceeds 0 for all boundaries at every N, but not in the limit.": lambda data: all(
         verdict.mean(data, SOLIDS[1], n, "m_x")["least"] > 0 for n in verdict.sizes(data, SOLIDS[1])) and verdict.limit(
         data, SOLIDS[1], "m_x")["least"] < 0,
+    "tetrahedra would be uncertain too": lambda data: (high := extrapolated([
+        (1 / n, e["mean"], e["half_width"]) for n in (64, 100, 200) for e in [verdict.three_means(data, SOLIDS[0], n, "m_x")[2]]]))[
+        "mean"] + high["half_width"] > verdict.FEW,
     "few missing constraints belong to underconstrained particles": lambda data: all(
         sum(p["m_supported"] for p in verdict.every(data, s)) > 0.7 * sum(p["m_x"] for p in verdict.every(data, s))
         for s in WITHOUT_TETRAHEDRA),
