@@ -48,7 +48,7 @@ TEST(JamTest, AFailedDecompressionStepIsRepeatedWithHalfItsLength) {
   const Packing packing = small_packing(SolidKind::dodecahedron, 0.72, 91);
   int by_fraction = 0, by_length = 0, by_goal = 0;
   for (int sample = 0; sample < 200; ++sample) {
-    const double distance = decade(random, -3, -0.5);
+    const double distance = decade(random, -4, -0.5);
     JamOptions options;
     options.decompression.step_fraction = uniform(random, 0.02, 0.98);
     options.decompression.longest_step = decade(random, -3, -0.5);
@@ -61,7 +61,7 @@ TEST(JamTest, AFailedDecompressionStepIsRepeatedWithHalfItsLength) {
     const JamResult result = jam(expanding(packing, distance, options), options);
     ASSERT_EQ(result.status, JamStatus::not_jammed) << to_string(result.status);
     ASSERT_EQ(result.states.size(), 1U);
-    ASSERT_EQ(result.path.size(), 6U) << "a step and four retries";
+    ASSERT_EQ(result.path.size(), distance > 1e-3 ? 6U : 9U) << "a step, and four retries or, near jamming, seven";
     const double fraction = options.decompression.step_fraction * distance,
                  goal = distance - 0.95 * options.decompression.final_distance;
     double expected = std::min({fraction, options.decompression.longest_step, goal});
