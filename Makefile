@@ -86,7 +86,7 @@ run: build
 # from their results. An interrupted call is resumed. A replicate that failed (exit 1) is counted on the page.
 PAPER = n100 n400 n400-tetrahedra n4000 unstable emergence
 CONSTRAINTS = constraints constraints-tetrahedra line line-dense line-cohesion line-cycles
-RIGIDITY = n50 n64 n200 n800 solids
+RIGIDITY = n50 n64 n200 solids
 PERCOLATION = kept100 removed100 tetrahedra kept200 removed200 cycles range cubes kept400 tetrahedra400
 # Measures that an interrupted call left come first, because `run` would compute the whole replicate again.
 studies = @for study in $(1); do \
@@ -108,7 +108,6 @@ paper: build
 	$(call nearest,paper-400-tetrahedra,backbone$(comma)rigidity)
 	$(call nearest,paper-4000,rigidity)
 	$(call nearest,paper-unstable,difference_modes)
-	$(call nearest,rigidity-800,modes$(comma)moduli$(comma)rigidity)
 	@$(GATHER) results/paper/records.json $(addprefix paper-,$(PAPER:n%=%))
 	@$(GATHER) results/rigidity/records.json $(addprefix rigidity-,$(RIGIDITY:n%=%))
 	@$(GATHER) results/rigidity/constraints.json $(addprefix rigidity-,$(CONSTRAINTS))
