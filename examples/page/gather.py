@@ -263,7 +263,7 @@ def study_of(isojam, directory):
     records = [record for _, record in named]
     made = {"git": sorted({r["provenance"]["git"] for r in records}), "exclude": tables["exclude"],
             "critical_angles": {}, "spectra": {}, "clusters": {}, "structure": {}, "emergence": {}, "troughs": []}
-    for row in [] if directory.name in LINE else tables["rows"]:
+    for row in [] if directory.name in (*CONSTRAINTS, *LINE) else tables["rows"]:
         kept = [r for r in records if r["status"] == "done" and not set(tables["exclude"]) & set(r.get("flags") or ())
                 and (r["spec"]["solid"], r["spec"]["particles"]) == (row["solid"], row["particles"])]
         if row.get("critical_angles"):

@@ -9,8 +9,7 @@ from estimates import estimate_of
 from limits import extrapolated
 from text import interval, number, significant, table
 
-# Largest Δφ of the states that count, if it is not 3e-4: large packings of tetrahedra end farther from jamming.
-WITHIN = {("tetrahedron", 64): 1e-3, ("tetrahedron", 100): 1e-3, ("tetrahedron", 200): 1e-3, ("tetrahedron", 400): 2.5e-3}
+WITHIN = dict.fromkeys(SOLIDS, 3e-4) | {"tetrahedron": 1e-3}  # largest Δφ of the states that count
 MEANT = ("C_x", "m_x", "m_supported")
 FEW = 0.06  # no constraints are missing if m is surely below 1 % of the six motions of a particle
 
@@ -22,7 +21,7 @@ def packings(data, solid, particles, studies=CONSTRAINTS):
         for r in data.kept_of(name, solid):
             last = {column: values[-1] for column, values in r["states"].items()}
             distance = last["phi"] - r["phi_j"]
-            if r["particles"] == particles and last.get("C_x") is not None and distance <= WITHIN.get((solid, particles), 3e-4):
+            if r["particles"] == particles and last.get("C_x") is not None and distance <= WITHIN[solid]:
                 found.append({**last, "distance": distance, "phi_j": r["phi_j"], "preparation": r.get("preparation")})
     return found
 
@@ -62,18 +61,18 @@ def place(data):
     return "N → ∞" if max(common) > 3 * min(common) else f"N = {max(common)}"
 
 
-def limit(data, solid, column):
+def limit(data, solid, column, without=None):
     """Limit N → ∞: intercept of the means against 1/N, weighted by their intervals, or by their resolution if it is larger. If
-    the sizes do not determine it, the mean at place()."""
+    the sizes do not determine it, the mean at place(). A size can be left out."""
     if place(data) != "N → ∞":
         return mean(data, solid, int(place(data).split()[-1]), column)
-    found = {n: three_means(data, solid, n, column) for n in sizes(data, solid)}
+    found = {n: three_means(data, solid, n, column) for n in sizes(data, solid) if n != without}
     return with_range(*(extrapolated([(1 / n, means[k]["mean"], max(means[k]["half_width"], 1 / n / means[k]["n"]))
                                       for n, means in found.items()]) for k in range(3)))
 
 
-def call(data, solid):
-    m = limit(data, solid, "m_x")
+def call(data, solid, without=None):
+    m = limit(data, solid, "m_x", without)
     return "missing" if m["least"] > 0 else "none" if m["greatest"] < FEW else "uncertain"
 
 

@@ -127,7 +127,7 @@ def missing(rows, solid):
     found = {}
     for r in rows:
         last = {name: values[-1] for name, values in r["states"].items()} if r["by_exponents"] else {}
-        within = 3e-4 if solid != "tetrahedron" else 1e-3 if r["particles"] < 400 else 2.5e-3
+        within = 1e-3 if solid == "tetrahedron" else 3e-4
         if r["solid"] == solid and last.get("m_x") is not None and last["phi"] - r["phi_j"] <= within:
             found.setdefault(r["particles"], []).append([last[name] for name in ("m_x", "m_x_low", "m_x_high")])
     return {n: [(c.mean(), max(stats.t.ppf(0.975, len(c) - 1) * stats.sem(c), 1 / n / len(c))) for c in numpy.array(m).T]
