@@ -106,8 +106,6 @@ def sure(estimate):
 CLAIMS = {
     "Contacts are hypostatic": lambda data: all(
         (e := contacts_at_jamming(data, s, 400)) and e["mean"] + e["half_width"] < 10 for s in SOLIDS),
-    "(icosahedra) to": lambda data: [f(SOLIDS, key=lambda s: contacts_at_jamming(data, s, 400)["mean"]) for f in (
-        min, max)] == [SOLIDS[2], SOLIDS[0]],
     "C of 400 octahedra, icosahedra and dodecahedra agrees with 12": lambda data: [
         agreement(data, s, "fit") for s in SOLIDS] == ["above", "agrees", "agrees", "agrees"],
     "(tetrahedra), while other preparations change that of tetrahedra by": lambda data: float(largest_offset(data)) < max(
@@ -121,11 +119,11 @@ CLAIMS = {
         0 < hard_offset(data, s) < 0.012 for s in SOLIDS[1:]) and hard_offset(data, SOLIDS[0]) > 0.1,
     "Cohesion that is removed raises φ_J of tetrahedra again": lambda data: sure(preparations.change(data, SOLIDS[0], "removed")),
     "among eight offsets, chance alone gives such a least probability": lambda data: offset_test(data)["chance"] > 0.1,
-    "The paper's intervals are narrower than the spread of single packings.": lambda data: all(
-        f["error"] < data.phi_j(f["solid"], f["particles"])["half_width"] * (data.phi_j(
-            f["solid"], f["particles"])["n"] + 1) ** 0.5 for f in figures_of("Table I")),
-    "Its mean cut-off nearest jamming lies at or above the upper edge of the trough": lambda data: all(
-        data.nearest(s, n, "cut_ef")["mean"] >= entry["edge_face"]["high"]
+    "The paper's intervals are narrower than the spread of single packings, except that of 400 tetrahedra.": lambda data: [
+        (f["solid"], f["particles"]) for f in figures_of("Table I") if f["error"] > (ours := data.phi_j(
+            f["solid"], f["particles"]))["half_width"] * (ours["n"] + 1) ** 0.5] == [(SOLIDS[0], 400)],
+    "Its mean cut-off nearest jamming lies in the upper half of the trough, on a logarithmic scale, or above it": lambda data: all(
+        data.nearest(s, n, "cut_ef")["mean"] ** 2 > entry["edge_face"]["low"] * entry["edge_face"]["high"]
         for s in SOLIDS for n in SIZES if (entry := data.trough(s, n)) and "high" in entry["edge_face"]),
     "No state nearest jamming has a negative mode, because saddles were relaxed along their negative modes.": lambda data: all(
         not r["states"]["negative"][-1] for s in SOLIDS for n in SIZES for r in data.kept(s, n)),
@@ -135,18 +133,15 @@ CLAIMS = {
     "The highest modes move almost only particles with a face-face contact, and each mode moves about two particles.":
         lambda data: all(data.nearest(s, 400, "amplitude")["mean"] > 0.95
                          and abs(data.nearest(s, 400, "participating")["mean"] - 2.2) < 0.3 for s in SOLIDS),
-    "its Z_ff and mean cluster sizes are within our prediction intervals for one packing, with two exceptions. Its clusters "
-    "of tetrahedra are larger, and those of icosahedra are smaller.": lambda data: outside(data, ("Z_ff", "S")) == {
-        (SOLIDS[0], "S"): "larger", (SOLIDS[2], "S"): "smaller"},
+    "its Z_ff and mean cluster sizes are within our prediction intervals for one packing.": lambda data: not outside(
+        data, ("Z_ff", "S")),
     "if between vertices, only its extents of tetrahedra differ significantly from ours, and if between centres, all but "
-    "those of icosahedra do": lambda data: set(outside(data, ("l_max", "body_l_max"))) == {
-        (SOLIDS[0], "body_l_max"), *((s, "l_max") for s in SOLIDS if s != SOLIDS[2])},
+    "those of dodecahedra do": lambda data: set(outside(data, ("l_max", "body_l_max"))) == {
+        (SOLIDS[0], "body_l_max"), *((s, "l_max") for s in SOLIDS[:3])},
     "in our packings, the densities of the two halves of this range differ by": lambda data: all(
         off > error for off, error in region_two(data)),
-    "For seven of the eight combinations of solid and N, the paper's interval overlaps our prediction interval for one "
-    "packing; for dodecahedra with N = 400 it does not.": lambda data: [
-        (f["solid"], f["particles"]) for f in figures_of("Table I")
-        if "outside" in within(data, f, data.phi_j(f["solid"], f["particles"]))] == [(SOLIDS[3], 400)],
+    "in each of the eight combinations of solid and N, the paper's interval overlaps our prediction interval for one packing.":
+        lambda data: not any("outside" in within(data, f, data.phi_j(f["solid"], f["particles"])) for f in figures_of("Table I")),
     "Small θ_ef are more frequent than in random contacts at all Δφ up to 0.32.": lambda data: len(emergence(data)) > 20
         and all(near["mean"] - near["half_width"] > 1 for *_, near in emergence(data)),
     "Angles θ_ff below 1° become so only at a Δφ between 0.16 and 0.04, in agreement with the paper (in tetrahedra, both are "
@@ -155,7 +150,7 @@ CLAIMS = {
         if distance > 0.15 or distance < 0.05),
     "The structure factor of the centres is below 0.05 for wave numbers k < 1": lambda data: all(
         e["mean"] + e["half_width"] < 0.05 for s in SOLIDS for n in (400, 4000) for k, e in structure(data, s, n) if k < 1),
-    "This is evidence that the protocols, or the methods to find φ_J, differ.": lambda data: offset_test(data)["p"] < 0.02,
+    "which is weak evidence that the protocols, or the methods to find φ_J, differ.": lambda data: 0.01 < offset_test(data)["p"] < 0.05,
     "For most combinations, only the mean over more than a hundred packings like ours would have such a narrow interval":
         lambda data: sum(needed_packings(data, f) > 100 for f in figures_of("Table I")) > 4,
     "Dice of the other solids are less dense than our packings": lambda data: all(
