@@ -142,7 +142,8 @@ CLAIMS = {
     "In octahedra, m exceeds 0 for all boundaries at every N, but the limit would be uncertain without N = 64.": lambda data: all(
         verdict.mean(data, SOLIDS[1], n, "m_x")["least"] > 0 for n in verdict.sizes(data, SOLIDS[1])) and verdict.call(
         data, SOLIDS[1], without=64) == "uncertain",
-    "Tetrahedra would be uncertain without N = 400.": lambda data: verdict.call(data, SOLIDS[0], without=400) == "uncertain",
+    "Tetrahedra would be uncertain without N = 400, and with N = 400 alone.": lambda data: verdict.call(
+        data, SOLIDS[0], without=400) == "uncertain" and verdict.mean(data, SOLIDS[0], 400, "m_x")["greatest"] > verdict.FEW,
     "few missing constraints belong to underconstrained particles": lambda data: all(
         sum(p["m_supported"] for p in verdict.every(data, s)) > 0.7 * sum(p["m_x"] for p in verdict.every(data, s))
         for s in WITHOUT_TETRAHEDRA),
